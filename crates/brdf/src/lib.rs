@@ -1,0 +1,1 @@
+//! BRDF math: Fresnel, GGX, diffuse, split-sum terms, generic over f32 and f64.

@@ -1,0 +1,2 @@
+//! The halfvector program.
+fn main() {}

@@ -1,0 +1,1 @@
+//! A material document becomes WGSL: named passes, reflection, export targets.

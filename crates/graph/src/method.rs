@@ -1,0 +1,224 @@
+//! The terms of shading that have more than one method, and the methods by name: the one list that the command line,
+//! the code generator and the bakes read. It holds names and sources; what a method computes stands in its twin files.
+
+/// A term of shading with selectable methods.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Term {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// What it stands for.
+    pub help: &'static str,
+    /// The methods; the first is the default.
+    pub methods: &'static [Method],
+    /// The method that the report which started the project uses.
+    pub report: &'static str,
+}
+
+/// One way to compute a term.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Method {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// What it does and where it comes from.
+    pub source: &'static str,
+    /// The library function that computes it, for methods that replace the default's function of the same signature.
+    pub function: Option<&'static str>,
+}
+
+const fn method(name: &'static str, function: Option<&'static str>, source: &'static str) -> Method {
+    Method { name, source, function }
+}
+
+/// All terms, in the order shown.
+pub const TERMS: &[Term] = &[
+    Term {
+        name: "d",
+        help: "distribution of microfacet normals",
+        methods: &[method("ggx", Some("d_ggx"), "Walter et al. 2007, with |n x h|^2 instead of 1 - (n.h)^2")],
+        report: "ggx",
+    },
+    Term {
+        name: "v",
+        help: "visibility: masking and shadowing over 4 (n.l)(n.v)",
+        methods: &[
+            method("correlated", Some("v_smith_ggx_correlated"), "Heitz 2014, height-correlated Smith"),
+            method("separable", Some("v_smith_ggx_separable"), "Walter et al. 2007, G1(v) G1(l)"),
+        ],
+        report: "separable",
+    },
+    Term {
+        name: "fresnel",
+        help: "Fresnel reflectance",
+        methods: &[
+            method("schlick", Some("f_schlick"), "Schlick 1994"),
+            method("exact", Some("f_exact"), "Fresnel's equations for a dielectric of the ior that f0 implies"),
+        ],
+        report: "schlick",
+    },
+    Term {
+        name: "diffuse",
+        help: "diffuse reflection",
+        methods: &[
+            method("lambert", Some("diffuse_lambert"), "Lambert 1760"),
+            method("burley", Some("diffuse_burley"), "Burley 2012"),
+        ],
+        report: "lambert",
+    },
+    Term {
+        name: "compensation",
+        help: "energy that single scattering loses",
+        methods: &[
+            method("turquin", Some("energy_compensation"), "Turquin 2019: 1 + f0 (1/E - 1)"),
+            method("none", None, "single scattering only"),
+        ],
+        report: "none",
+    },
+    Term {
+        name: "dfg",
+        help: "directional albedo of the specular lobe",
+        methods: &[
+            method("table", None, "Karis 2013: a table over n.v and perceptual roughness"),
+            method("karis", Some("dfg_karis"), "Karis 2014: analytic fit"),
+        ],
+        report: "table",
+    },
+    Term {
+        name: "prefilter",
+        help: "filter of the environment's levels",
+        methods: &[method("ggx", None, "Karis 2013: n = v = r, GGX")],
+        report: "ggx",
+    },
+    Term {
+        name: "level_map",
+        help: "perceptual roughness to level",
+        methods: &[
+            method("linear", Some("lod_linear"), "lod = roughness (levels - 1)"),
+            method("report", Some("lod_report"), "six levels, lod = 5 roughness"),
+        ],
+        report: "report",
+    },
+    Term {
+        name: "irradiance",
+        help: "diffuse light of the environment",
+        methods: &[
+            method("cube", None, "cosine-filtered cube"),
+            method("sh2", Some("irradiance_sh2"), "Ramamoorthi and Hanrahan 2001: nine coefficients"),
+            method("last_level", None, "the last prefiltered level in the mirror direction"),
+        ],
+        report: "last_level",
+    },
+    Term {
+        name: "normal",
+        help: "normal mapping",
+        methods: &[
+            method("tbn", Some("normal_tbn"), "tangent frame, MikkTSpace"),
+            method("rotation_report", Some("normal_rotation_report"), "three angles, Rz Ry Rx, as the report gives them"),
+            method("rotation_fixed", Some("normal_rotation_fixed"), "signs mended, without Rz"),
+        ],
+        report: "rotation_report",
+    },
+    Term {
+        name: "height_normals",
+        help: "shading normal of a displaced surface",
+        methods: &[
+            method("derived", None, "Mikkelsen 2010: from the height's screen-space gradient"),
+            method("report", None, "the undisplaced surface's normal"),
+        ],
+        report: "report",
+    },
+    Term {
+        name: "encode",
+        help: "where the display's coding is applied",
+        methods: &[
+            method("srgb", None, "after the tone map, IEC 61966-2-1"),
+            method("report", None, "pow(1/2.2) on the reflection, before the albedo"),
+        ],
+        report: "report",
+    },
+    Term {
+        name: "env_decode",
+        help: "what the environment's pixels mean",
+        methods: &[
+            method("linear", None, "radiance as stored; LDR files are sRGB-decoded"),
+            method("report", None, "tone-mapped and linearised: L/(1+L) for HDR, sRGB-decoded for LDR"),
+        ],
+        report: "report",
+    },
+];
+
+/// The term with this name.
+pub fn term(name: &str) -> Option<&'static Term> {
+    TERMS.iter().find(|t| t.name == name)
+}
+
+/// A choice of one method for each term; terms not named have their default.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Methods {
+    /// One index into `Term::methods` per term, in the order of [`TERMS`].
+    chosen: Vec<u8>,
+}
+
+/// Why a choice of method was refused.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MethodError {
+    /// No such term.
+    #[error("there is no term `{term}`; the terms are {}", TERMS.iter().map(|t| t.name).collect::<Vec<_>>().join(", "))]
+    UnknownTerm {
+        /// As given.
+        term: String,
+    },
+    /// No such method of the term.
+    #[error("the term `{term}` has no method `{method}`; it has {known}")]
+    UnknownMethod {
+        /// As given.
+        term: String,
+        /// As given.
+        method: String,
+        /// What there is.
+        known: String,
+    },
+}
+
+impl Default for Methods {
+    fn default() -> Self {
+        Methods { chosen: vec![0; TERMS.len()] }
+    }
+}
+
+impl Methods {
+    /// The report's own form of each term.
+    pub fn report() -> Self {
+        let mut methods = Methods::default();
+        for term in TERMS {
+            methods.set(term.name, term.report).expect("the report's methods are in the list");
+        }
+        methods
+    }
+
+    /// Chooses a method by name.
+    pub fn set(&mut self, term: &str, method: &str) -> Result<(), MethodError> {
+        let index = TERMS
+            .iter()
+            .position(|t| t.name == term)
+            .ok_or_else(|| MethodError::UnknownTerm { term: term.into() })?;
+        let methods = TERMS[index].methods;
+        let chosen = methods.iter().position(|m| m.name == method).ok_or_else(|| MethodError::UnknownMethod {
+            term: term.into(),
+            method: method.into(),
+            known: methods.iter().map(|m| m.name).collect::<Vec<_>>().join(", "),
+        })?;
+        self.chosen[index] = chosen as u8;
+        Ok(())
+    }
+
+    /// The chosen method of a term. Panics when `term` is not in [`TERMS`]: a mistake of the caller.
+    pub fn get(&self, term: &str) -> &'static Method {
+        let index = TERMS.iter().position(|t| t.name == term).expect("a term of the list");
+        &TERMS[index].methods[self.chosen[index] as usize]
+    }
+
+    /// Whether the chosen method of `term` is `method`.
+    pub fn is(&self, term: &str, method: &str) -> bool {
+        self.get(term).name == method
+    }
+}

@@ -1,0 +1,166 @@
+//! Socket types and the values that stand in a document.
+//!
+//! Does not convert between types (see `check`) and does not print WGSL (see the code generator).
+
+use serde::{Deserialize, Serialize};
+
+/// A type that a value on a wire can have, named as in WGSL.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Type {
+    /// `bool`
+    Bool,
+    /// `i32`
+    I32,
+    /// `f32`
+    F32,
+    /// `vec2f`
+    Vec2,
+    /// `vec3f`
+    Vec3,
+    /// `vec4f`
+    Vec4,
+}
+
+impl Type {
+    /// The name in WGSL.
+    pub fn wgsl(self) -> &'static str {
+        match self {
+            Type::Bool => "bool",
+            Type::I32 => "i32",
+            Type::F32 => "f32",
+            Type::Vec2 => "vec2f",
+            Type::Vec3 => "vec3f",
+            Type::Vec4 => "vec4f",
+        }
+    }
+
+    /// The type with this WGSL name.
+    pub fn from_wgsl(name: &str) -> Option<Type> {
+        Some(match name {
+            "bool" => Type::Bool,
+            "i32" => Type::I32,
+            "f32" => Type::F32,
+            "vec2f" => Type::Vec2,
+            "vec3f" => Type::Vec3,
+            "vec4f" => Type::Vec4,
+            _ => return None,
+        })
+    }
+
+    /// Number of scalar components: 1 to 4.
+    pub fn components(self) -> usize {
+        match self {
+            Type::Bool | Type::I32 | Type::F32 => 1,
+            Type::Vec2 => 2,
+            Type::Vec3 => 3,
+            Type::Vec4 => 4,
+        }
+    }
+
+    /// Whether a value of this type can stand where `to` is wanted, and nothing is lost:
+    /// the same type, a scalar spread over a float vector, a whole number as a float.
+    pub fn converts_to(self, to: Type) -> bool {
+        self == to
+            || (matches!(self, Type::F32 | Type::I32)
+                && matches!(to, Type::F32 | Type::Vec2 | Type::Vec3 | Type::Vec4))
+    }
+}
+
+/// What a socket takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SocketType {
+    /// One fixed type.
+    Value(Type),
+    /// The node's own `T`, resolved for each use.
+    Generic,
+    /// A 2D texture; its sampler goes with it.
+    Texture,
+    /// The result of a surface node.
+    Surface,
+}
+
+/// How the components of a picture are coded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ColorSpace {
+    /// IEC 61966-2-1, decoded on sampling; alpha is linear.
+    Srgb,
+    /// The stored numbers are the values.
+    Linear,
+}
+
+/// What a texture returns outside of [0, 1].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Wrap {
+    /// The picture again.
+    #[default]
+    Repeat,
+    /// Its edge.
+    Clamp,
+    /// The picture mirrored at each whole number.
+    Mirror,
+}
+
+/// How a texture is read between its texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Filter {
+    /// Trilinear, with mip levels.
+    #[default]
+    Linear,
+    /// The nearest texel of the nearest mip level.
+    Nearest,
+}
+
+/// A picture that a document refers to.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImageRef {
+    /// Path relative to the document; `MODEL.glb#N` is image N of a glTF file.
+    pub file: String,
+    /// How its components are coded; alpha is always linear.
+    pub color_space: ColorSpace,
+    /// What lies left and right of it.
+    #[serde(default)]
+    pub wrap_u: Wrap,
+    /// What lies above and below it.
+    #[serde(default)]
+    pub wrap_v: Wrap,
+    /// How it is read between texels.
+    #[serde(default)]
+    pub filter: Filter,
+}
+
+/// A value set on a socket. Numbers are finite in a sound document; `check` reports those that are not.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// For `bool`.
+    Bool(bool),
+    /// For `f32`, and for `i32` when whole.
+    Number(f32),
+    /// For `vec2f`.
+    Vec2([f32; 2]),
+    /// For `vec3f`.
+    Vec3([f32; 3]),
+    /// For `vec4f`.
+    Vec4([f32; 4]),
+    /// For a texture.
+    Image(ImageRef),
+}
+
+impl Value {
+    /// The components of a number or vector; a bool is 0 or 1; none for an image.
+    pub fn components(&self) -> Option<&[f32]> {
+        Some(match self {
+            Value::Bool(false) => &[0.0],
+            Value::Bool(true) => &[1.0],
+            Value::Number(x) => std::slice::from_ref(x),
+            Value::Vec2(v) => v,
+            Value::Vec3(v) => v,
+            Value::Vec4(v) => v,
+            Value::Image(_) => return None,
+        })
+    }
+}

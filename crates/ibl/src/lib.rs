@@ -1,0 +1,1 @@
+//! Image-based lighting: environment files, cubes, prefiltered radiance, irradiance, DFG table.

@@ -1,0 +1,1 @@
+//! Texture maps: decoding with limits, colour spaces, mip chains, normal mapping, tangent frames.

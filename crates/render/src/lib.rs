@@ -1,0 +1,1 @@
+//! Draws a scene with wgpu: device, pipelines, targets, readback.

@@ -1,0 +1,1 @@
+//! Scenes: meshes, glTF, cameras, lights, environments, tone maps, files.

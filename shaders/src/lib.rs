@@ -1,0 +1,23 @@
+//! The WGSL library of Halfvector: every file of it, embedded, and the slicer that cuts a file into items.
+//!
+//! The WGSL is ordinary and hand-written; a function whose doc comment says `@node` is a node of the editor. This crate
+//! lists and slices text. It does not parse WGSL (naga does, in the crates that need meaning).
+
+/// A WGSL file of the library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct File {
+    /// Path below `shaders/`, such as `brdf/ggx.wgsl`.
+    pub path: &'static str,
+    /// The text.
+    pub source: &'static str,
+}
+
+macro_rules! files {
+    ($($path:literal),* $(,)?) => {
+        &[$(File { path: $path, source: include_str!(concat!("../", $path)) }),*]
+    };
+}
+
+/// All files, sorted by path. A tidy test holds this list against the folder.
+pub const FILES: &[File] = files![
+];
