@@ -1,0 +1,2 @@
+//! Time from document to WGSL, with and without validation.
+fn main() {}
