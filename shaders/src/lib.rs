@@ -20,4 +20,5 @@ macro_rules! files {
 
 /// All files, sorted by path. A tidy test holds this list against the folder.
 pub const FILES: &[File] = files![
+    "ibl/environment.wgsl",
 ];

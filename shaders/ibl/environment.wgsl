@@ -1,0 +1,46 @@
+// Reading a baked environment: rotation, level of detail, cube lookup, diffuse irradiance, split-sum table.
+// The Rust twin of the texture-free functions and the maker of the data is `crates/ibl`.
+
+/// World direction to environment direction when the environment is turned counter-clockwise seen from above (+Y) by an
+/// angle a: the rotation Ry(-a). `cos_sin` = (cos a, sin a), computed once on the CPU.
+fn rotate_about_y(dir: vec3f, cos_sin: vec2f) -> vec3f {
+    return vec3f(cos_sin.x * dir.x - cos_sin.y * dir.z, dir.y, cos_sin.y * dir.x + cos_sin.x * dir.z);
+}
+
+/// Level that holds a perceptual roughness when level i of n is prefiltered for i / (n - 1).
+fn lod_linear(perceptual_roughness: f32, levels: f32) -> f32 {
+    return perceptual_roughness * (levels - 1.0);
+}
+
+/// Level as the report reads it: lod = 5 roughness, for six levels 0..5 (fewer levels end at their last).
+fn lod_report(perceptual_roughness: f32, levels: f32) -> f32 {
+    return min(5.0 * perceptual_roughness, levels - 1.0);
+}
+
+/// Radiance that arrives from a direction, prefiltered as much as the level says; mixed linearly between levels.
+/// `dir` need not be unit. An explicit level, so it may stand under control flow and in any stage.
+fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f, lod: f32) -> vec3f {
+    return textureSampleLevel(cube, cube_sampler, dir, lod).rgb;
+}
+
+/// Diffuse irradiance over pi of nine spherical-harmonic coefficients (order 2).
+/// Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps", equation 13, with the
+/// basis constants and the cosine factors (1, 2/3, 1/4) folded into the coefficients:
+///   E/pi = c0 + c1 y + c2 z + c3 x + c4 xy + c5 yz + c6 (3z^2 - 1) + c7 xz + c8 (x^2 - y^2)
+/// `dir` is unit. The floor at 0 removes the negative lobe that order 2 leaves opposite a small bright lamp.
+fn irradiance_sh2(coefficients: array<vec4f, 9>, dir: vec3f) -> vec3f {
+    let c = coefficients;
+    let linear = c[1].xyz * dir.y + c[2].xyz * dir.z + c[3].xyz * dir.x;
+    let mixed = c[4].xyz * (dir.x * dir.y) + c[5].xyz * (dir.y * dir.z) + c[7].xyz * (dir.x * dir.z);
+    let squares = c[6].xyz * (3.0 * dir.z * dir.z - 1.0) + c[8].xyz * (dir.x * dir.x - dir.y * dir.y);
+    return max(c[0].xyz + linear + mixed + squares, vec3f(0.0));
+}
+
+/// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
+/// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
+/// along x for n_dot_v and along y for the perceptual roughness, so both ends of each range are texels, not extrapolated.
+fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
+    let size = vec2f(textureDimensions(table));
+    let uv = (saturate(vec2f(n_dot_v, perceptual_roughness)) * (size - 1.0) + 0.5) / size;
+    return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
+}
