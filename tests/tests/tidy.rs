@@ -1,1 +1,0 @@
-//! Tidy rules.

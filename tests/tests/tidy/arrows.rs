@@ -1,0 +1,62 @@
+//! Who may depend on whom: the arrows of ARCHITECTURE.md, held against the manifests.
+
+use super::{read, root};
+
+/// Package folder, and what of ours and of the restricted packages it may name.
+const ARROWS: &[(&str, &[&str])] = &[
+    ("shaders", &[]),
+    ("crates/brdf", &[]),
+    ("crates/maps", &[]),
+    ("crates/ibl", &["brdf", "maps"]),
+    ("crates/graph", &["shaders"]),
+    ("crates/codegen", &["graph", "shaders"]),
+    ("crates/scene", &["graph", "maps", "ibl"]),
+    ("crates/render", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
+    ("crates/cli", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),
+];
+
+/// Packages of others that only some of ours may name.
+const RESTRICTED: &[(&str, &[&str])] = &[
+    ("wgpu", &["crates/render"]),
+    ("egui", &[]),
+    ("eframe", &[]),
+    ("anyhow", &["crates/cli"]),
+    ("clap", &["crates/cli"]),
+];
+
+/// Names in the dependency tables of a manifest, dev-dependencies included: one upward is an arrow too.
+fn dependencies(manifest: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    let mut inside = false;
+    for line in manifest.lines().map(str::trim) {
+        if line.starts_with('[') {
+            inside = line.trim_matches(['[', ']']).ends_with("dependencies");
+        } else if inside && let Some((name, _)) = line.split_once(['.', '=', ' ']) {
+            names.push(name.trim().to_string());
+        }
+    }
+    names
+}
+
+#[test]
+fn arrows_point_one_way() {
+    for (folder, allowed) in ARROWS {
+        for name in dependencies(&read(&root().join(folder).join("Cargo.toml"))) {
+            if let Some(ours) = name.strip_prefix("halfvector-") {
+                assert!(allowed.contains(&ours), "{folder} may not depend on {name}");
+            }
+            for (restricted, who) in RESTRICTED {
+                assert!(name != *restricted || who.contains(folder), "{folder} may not depend on {name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_package_stands_in_the_table() {
+    let folders = std::fs::read_dir(root().join("crates")).expect("crates/");
+    for folder in folders.map(|f| f.expect("an entry").path()).filter(|f| f.is_dir()) {
+        let name = format!("crates/{}", folder.file_name().expect("a name").to_string_lossy());
+        assert!(ARROWS.iter().any(|(folder, _)| *folder == name), "{name} has no row in the table of arrows");
+    }
+}
