@@ -21,4 +21,6 @@ macro_rules! files {
 /// All files, sorted by path. A tidy test holds this list against the folder.
 pub const FILES: &[File] = files![
     "ibl/environment.wgsl",
+    "light.wgsl",
+    "tone_map.wgsl",
 ];
