@@ -20,7 +20,10 @@ macro_rules! files {
 
 /// All files, sorted by path. A tidy test holds this list against the folder.
 pub const FILES: &[File] = files![
+    "color.wgsl",
     "ibl/environment.wgsl",
     "light.wgsl",
+    "maps/height.wgsl",
+    "maps/normal.wgsl",
     "tone_map.wgsl",
 ];
