@@ -1,4 +1,6 @@
 //! Tests across crates, in one binary. Each module is one kind of test; data that is not there is skipped with a printed
 //! line, a missing GPU too, unless `HALFVECTOR_REQUIRE_GPU=1`.
 
+mod golden;
+mod support;
 mod tidy;

@@ -1,6 +1,7 @@
 //! Who may depend on whom: the arrows of ARCHITECTURE.md, held against the manifests.
 
-use super::{read, root};
+use super::read;
+use crate::support::root;
 
 /// Package folder, and what of ours and of the restricted packages it may name.
 const ARROWS: &[(&str, &[&str])] = &[

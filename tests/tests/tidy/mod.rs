@@ -7,10 +7,7 @@ mod uniformity;
 
 use std::path::{Path, PathBuf};
 
-/// Root of the workspace.
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace").to_path_buf()
-}
+use crate::support::root;
 
 /// All files below `folder` (relative to the root) whose name ends in `suffix`, sorted.
 fn files(folder: &str, suffix: &str) -> Vec<PathBuf> {

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use halfvector_shaders::{FILES, slicer};
 
-use super::{files, root};
+use super::files;
+use crate::support::root;
 
 #[test]
 fn no_item_has_the_name_of_a_builtin() {

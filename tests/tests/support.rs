@@ -1,0 +1,30 @@
+//! What several kinds of test share: where things are, and what may be skipped.
+
+use std::path::{Path, PathBuf};
+
+/// Root of the workspace.
+pub(crate) fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace").to_path_buf()
+}
+
+/// Whether a variable asks that what is missing is a failure.
+pub(crate) fn required(variable: &str) -> bool {
+    std::env::var(variable).is_ok_and(|v| v == "1")
+}
+
+/// Whether committed files are to be written anew.
+pub(crate) fn bless() -> bool {
+    required("HALFVECTOR_BLESS")
+}
+
+/// A file or folder of the data beside the project, or none with a printed line.
+pub(crate) fn data(path: &str) -> Option<PathBuf> {
+    let folder = std::env::var_os("HALFVECTOR_DATA").map_or_else(|| root().join("../shared/data"), PathBuf::from);
+    let path = folder.join(path);
+    if path.exists() {
+        Some(path)
+    } else {
+        println!("skipped: {} is not there", path.display());
+        None
+    }
+}
