@@ -20,10 +20,20 @@ macro_rules! files {
 
 /// All files, sorted by path. A tidy test holds this list against the folder.
 pub const FILES: &[File] = files![
+    "brdf/dfg.wgsl",
+    "brdf/diffuse.wgsl",
+    "brdf/frame.wgsl",
+    "brdf/fresnel.wgsl",
+    "brdf/ggx.wgsl",
+    "brdf/lobe_diffuse.wgsl",
+    "brdf/lobe_specular.wgsl",
+    "brdf/metallic_roughness.wgsl",
+    "brdf/multiscatter.wgsl",
     "color.wgsl",
     "ibl/environment.wgsl",
     "light.wgsl",
     "maps/height.wgsl",
     "maps/normal.wgsl",
+    "math.wgsl",
     "tone_map.wgsl",
 ];
