@@ -3,6 +3,14 @@
 //! The WGSL is ordinary and hand-written; a function whose doc comment says `@node` is a node of the editor. This crate
 //! lists and slices text. It does not parse WGSL (naga does, in the crates that need meaning).
 
+mod emit;
+mod slicer;
+mod token;
+
+pub use emit::{emit, without_grammar};
+pub use slicer::{Item, ItemKind, MAX_NESTING, MAX_OPERATORS, SliceError, SliceErrorKind, generic_types, slice};
+pub use token::{Token, TokenKind, tokens};
+
 /// A WGSL file of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct File {
