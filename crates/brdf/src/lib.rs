@@ -1,1 +1,26 @@
-//! BRDF math: Fresnel, GGX, diffuse, split-sum terms, generic over f32 and f64.
+//! BRDF math: Fresnel, GGX, diffuse, split-sum terms and the lobes made of them, generic over `f32` and `f64`.
+//!
+//! Each function has a twin of the same file, name, argument order and unit in the WGSL library (`shaders/brdf/*.wgsl`
+//! and `shaders/math.wgsl`); a test holds them together. [`sampling`] alone has none.
+//!
+//! The crate knows no file, no GPU and no graph, and depends on `std` alone. Vectors are `[R; 3]`, colours are linear
+//! Rec. 709, directions point away from the surface and are unit. BRDFs are in 1/sr.
+//!
+//! Nothing here panics. Each function names its domain, where it never returns NaN, an infinity or a negative number;
+//! the lobes (`*_eval`, `*_environment`) return finite numbers for any input whatever.
+
+pub mod dfg;
+pub mod diffuse;
+pub mod frame;
+pub mod fresnel;
+pub mod ggx;
+pub mod lobe_diffuse;
+pub mod lobe_specular;
+pub mod math;
+pub mod metallic_roughness;
+pub mod multiscatter;
+mod real;
+pub mod sampling;
+pub mod vector;
+
+pub use real::Real;

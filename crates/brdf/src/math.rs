@@ -1,0 +1,43 @@
+//! Constants and small functions that the whole library leans on.
+
+use crate::{Real, vector::dot, vector::scale};
+
+/// pi.
+pub const PI: f64 = std::f64::consts::PI;
+/// 1 / pi.
+pub const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
+
+/// Shortest squared length that is still divided by: below it lie the denormal numbers of f32, which a GPU may flush.
+pub(crate) const LENGTH2_FLOOR: f64 = 1e-37;
+/// Longest squared length that is still divided by: above it the sum of squares overflows f32.
+const LENGTH2_CEILING: f64 = 1e37;
+/// Every number of the library's domain is smaller; f32 ends at 3.4e38.
+const FINITE_CEILING: f64 = 3e38;
+
+/// x^5 by three products.
+///
+/// Domain: |x| < 2e7 (its fifth power is still an f32). Error in f32: 2 ulp.
+#[inline]
+pub fn pow5<R: Real>(x: R) -> R {
+    let x2 = x * x;
+    x2 * x2 * x
+}
+
+/// v / |v|, or `fallback` where v has no direction: zero, NaN, infinite, or of a length outside 3e-19 .. 3e18.
+///
+/// `fallback` is returned as it is. Error in f32: 2 ulp a component.
+#[inline]
+pub fn normalize_or<R: Real>(v: [R; 3], fallback: [R; 3]) -> [R; 3] {
+    let length2 = dot(v, v);
+    if length2 > R::of(LENGTH2_FLOOR) && length2 < R::of(LENGTH2_CEILING) {
+        scale(v, R::ONE / length2.sqrt())
+    } else {
+        fallback
+    }
+}
+
+/// The colour with each channel that is NaN, infinite or beyond +-3e38 set to 0. Exact for all others.
+#[inline]
+pub fn finite_or_zero<R: Real>(c: [R; 3]) -> [R; 3] {
+    c.map(|x| if x.abs() < R::of(FINITE_CEILING) { x } else { R::ZERO })
+}
