@@ -1,6 +1,7 @@
 //! What a shader wants bound and fed: plain data for renderers and for the JSON beside an exported file.
 //!
-//! Uniform layout and packing stand here together, so that the bytes and the WGSL struct come from one list of members.
+//! The bytes and the WGSL struct of a uniform block come from one list of members; its layout and packing stand in
+//! `layout`.
 
 use halfvector_graph::document::SocketRef;
 use halfvector_graph::value::{Filter, ImageRef, Type, Wrap};
@@ -117,9 +118,9 @@ pub enum UniformType {
     Mat4,
     /// `mat3x3f`, column-major, columns padded to 16 bytes.
     Mat3,
-    /// Array of lights of a kind (stride from `light_stride`).
+    /// A light of a kind, or an array of so many (stride: [`LightKind::stride`]).
     Lights(LightKind, u32),
-    /// `array<vec4f, 9>`: irradiance over pi as SH.
+    /// `array<vec4f, 9>`: irradiance over pi as SH, the fourth component unused.
     Sh9,
 }
 
@@ -147,6 +148,8 @@ pub enum UniformSource {
     Exposure,
     /// (cos, sin) of the environment's rotation about +Y.
     EnvironmentRotation,
+    /// Number of levels of the prefiltered radiance, as a float.
+    EnvironmentLevels,
     /// The environment's irradiance over pi as nine SH coefficients.
     IrradianceSh,
     /// Lights of a kind.
@@ -155,7 +158,9 @@ pub enum UniformSource {
     Input(SocketRef),
     /// World from object.
     WorldFromObject,
-    /// Cofactor matrix of the upper 3x3: takes normals to world space.
+    /// The upper 3x3's cofactor matrix times the sign of its determinant, that is |det| (M^-1)^T: takes normals to
+    /// world space, outward ones to outward ones. Where the determinant is negative the renderer also swaps which
+    /// winding is the front.
     NormalFromObject,
 }
 
