@@ -18,13 +18,43 @@ pub struct Context {
 
 /// All contexts.
 pub const CONTEXTS: &[Context] = &[
-    Context { name: "uv0", ty: Type::Vec2, vertex: true, help: "first texture coordinates; (0,0) is the top left of an image" },
+    Context {
+        name: "uv0",
+        ty: Type::Vec2,
+        vertex: true,
+        help: "first texture coordinates; (0,0) is the top left of an image",
+    },
     Context { name: "uv1", ty: Type::Vec2, vertex: true, help: "second texture coordinates" },
-    Context { name: "world_position", ty: Type::Vec3, vertex: true, help: "the point in world space [m]; before displacement in the vertex stage" },
-    Context { name: "object_position", ty: Type::Vec3, vertex: true, help: "the point in object space [m], before displacement" },
-    Context { name: "world_normal", ty: Type::Vec3, vertex: true, help: "unit shading normal of the mesh in world space" },
-    Context { name: "world_tangent", ty: Type::Vec4, vertex: true, help: "tangent of the mesh in world space; w is the handedness of the bitangent" },
-    Context { name: "view_dir", ty: Type::Vec3, vertex: true, help: "unit direction from the point to the viewer in world space" },
+    Context {
+        name: "world_position",
+        ty: Type::Vec3,
+        vertex: true,
+        help: "the point in world space [m]; before displacement in the vertex stage",
+    },
+    Context {
+        name: "object_position",
+        ty: Type::Vec3,
+        vertex: true,
+        help: "the point in object space [m], before displacement",
+    },
+    Context {
+        name: "world_normal",
+        ty: Type::Vec3,
+        vertex: true,
+        help: "unit shading normal of the mesh in world space",
+    },
+    Context {
+        name: "world_tangent",
+        ty: Type::Vec4,
+        vertex: true,
+        help: "tangent of the mesh in world space; w is the handedness of the bitangent",
+    },
+    Context {
+        name: "view_dir",
+        ty: Type::Vec3,
+        vertex: true,
+        help: "unit direction from the point to the viewer in world space",
+    },
     Context { name: "time", ty: Type::F32, vertex: true, help: "time [s]" },
 ];
 

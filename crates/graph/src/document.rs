@@ -2,7 +2,9 @@
 //! how it is written in `file`. Positions stand apart (`layout`) and never reach the code generator.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
+use crate::FORMAT_VERSION;
 use crate::value::Value;
 
 /// Stable name of a node in a document: letters, digits and `_`, first a letter.
@@ -100,5 +102,123 @@ pub struct SurfaceSettings {
 impl Default for SurfaceSettings {
     fn default() -> Self {
         SurfaceSettings { alpha_mode: AlphaMode::Opaque, alpha_cutoff: 0.5, double_sided: false }
+    }
+}
+
+/// Id of the surface node that [`Document::with_surface`] makes, and of its definition.
+pub const SURFACE_NODE: &str = "surface/surface";
+
+/// Whether `name` may name a node of a document or a parameter: letters, digits and `_` of ASCII, first a letter, at most 128.
+pub fn is_name(name: &str) -> bool {
+    name.len() <= 128
+        && name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+}
+
+impl Document {
+    /// A document without nodes.
+    pub fn new(name: &str) -> Document {
+        Document {
+            version: FORMAT_VERSION,
+            name: name.into(),
+            nodes: BTreeMap::new(),
+            links: Vec::new(),
+            parameters: Vec::new(),
+            surface: SurfaceSettings::default(),
+            layout: BTreeMap::new(),
+            unknown: serde_json::Map::new(),
+        }
+    }
+
+    /// A document with one surface node, `surface`, whose inputs have their defaults.
+    pub fn with_surface(name: &str) -> Document {
+        let mut document = Document::new(name);
+        document.nodes.insert("surface".into(), Node::new(SURFACE_NODE));
+        document
+    }
+
+    /// The output that feeds an input: of several links the first. It looks through all links; for many questions
+    /// use [`crate::wiring::Wiring`].
+    pub fn incoming(&self, input: &SocketRef) -> Option<&SocketRef> {
+        self.links.iter().find(|link| link.to == *input).map(|link| &link.from)
+    }
+
+    /// The value set on an input, if any.
+    pub fn value(&self, input: &SocketRef) -> Option<&Value> {
+        self.nodes.get(&input.node)?.values.get(&input.socket)
+    }
+
+    /// The parameter with this name.
+    pub fn parameter(&self, name: &str) -> Option<&Parameter> {
+        self.parameters.iter().find(|parameter| parameter.name == name)
+    }
+
+    /// An id that no node has: `base` made a name, with a number behind it when it is taken.
+    pub fn free_id(&self, base: &str) -> NodeId {
+        let mut name: String = base
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' })
+            .take(100)
+            .collect();
+        if !is_name(&name) {
+            name.insert_str(0, "node_");
+        }
+        let mut id = name.clone();
+        let mut number = 2u64;
+        while self.nodes.contains_key(&id) {
+            id = format!("{name}_{number}");
+            number += 1;
+        }
+        id
+    }
+}
+
+impl Node {
+    /// A node of this definition, such as `math/mix`, with all defaults.
+    pub fn new(node: &str) -> Node {
+        Node { node: node.into(), label: None, values: BTreeMap::new(), unknown: serde_json::Map::new() }
+    }
+
+    /// The same node with a value set.
+    pub fn with(mut self, socket: &str, value: Value) -> Node {
+        self.values.insert(socket.into(), value);
+        self
+    }
+}
+
+impl SocketRef {
+    /// The socket `socket` of the node `node`.
+    pub fn new(node: &str, socket: &str) -> SocketRef {
+        SocketRef { node: node.into(), socket: socket.into() }
+    }
+
+    /// Reads `node.socket`.
+    pub fn parse(written: &str) -> Option<SocketRef> {
+        let (node, socket) = written.split_once('.')?;
+        (!node.is_empty() && !socket.is_empty()).then(|| SocketRef::new(node, socket))
+    }
+}
+
+impl fmt::Display for SocketRef {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.node, self.socket)
+    }
+}
+
+impl Link {
+    /// A link from the output `from` to the input `to`.
+    pub fn new(from: SocketRef, to: SocketRef) -> Link {
+        Link { from, to }
+    }
+}
+
+impl AlphaMode {
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            AlphaMode::Opaque => "opaque",
+            AlphaMode::Mask => "mask",
+            AlphaMode::Blend => "blend",
+        }
     }
 }

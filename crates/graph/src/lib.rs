@@ -1,6 +1,12 @@
 //! The material document: nodes, links, edits, checks, files; node definitions read from WGSL.
+//!
+//! Reading order: `value`, `document` (the plain data), `node_def` and `library` (what a node is and where it comes from), `resolve` and
+//! `check` (what a document means), `edit`, `file`. Nothing here makes a shader, looks at a picture or opens a window.
+
 pub mod context;
 pub mod document;
+pub mod file;
+mod json;
 pub mod method;
 pub mod needs;
 pub mod node_def;

@@ -112,7 +112,11 @@ pub const TERMS: &[Term] = &[
         help: "normal mapping",
         methods: &[
             method("tbn", Some("normal_tbn"), "tangent frame, MikkTSpace"),
-            method("rotation_report", Some("normal_rotation_report"), "three angles, Rz Ry Rx, as the report gives them"),
+            method(
+                "rotation_report",
+                Some("normal_rotation_report"),
+                "three angles, Rz Ry Rx, as the report gives them",
+            ),
             method("rotation_fixed", Some("normal_rotation_fixed"), "signs mended, without Rz"),
         ],
         report: "rotation_report",
@@ -197,10 +201,8 @@ impl Methods {
 
     /// Chooses a method by name.
     pub fn set(&mut self, term: &str, method: &str) -> Result<(), MethodError> {
-        let index = TERMS
-            .iter()
-            .position(|t| t.name == term)
-            .ok_or_else(|| MethodError::UnknownTerm { term: term.into() })?;
+        let index =
+            TERMS.iter().position(|t| t.name == term).ok_or_else(|| MethodError::UnknownTerm { term: term.into() })?;
         let methods = TERMS[index].methods;
         let chosen = methods.iter().position(|m| m.name == method).ok_or_else(|| MethodError::UnknownMethod {
             term: term.into(),

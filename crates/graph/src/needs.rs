@@ -54,8 +54,7 @@ pub enum ToneMap {
 
 impl ToneMap {
     /// All, in the order shown.
-    pub const ALL: [ToneMap; 5] =
-        [ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::Agx, ToneMap::PbrNeutral];
+    pub const ALL: [ToneMap; 5] = [ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::Agx, ToneMap::PbrNeutral];
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {

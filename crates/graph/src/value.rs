@@ -61,8 +61,7 @@ impl Type {
     /// the same type, a scalar spread over a float vector, a whole number as a float.
     pub fn converts_to(self, to: Type) -> bool {
         self == to
-            || (matches!(self, Type::F32 | Type::I32)
-                && matches!(to, Type::F32 | Type::Vec2 | Type::Vec3 | Type::Vec4))
+            || (matches!(self, Type::F32 | Type::I32) && matches!(to, Type::F32 | Type::Vec2 | Type::Vec3 | Type::Vec4))
     }
 }
 
@@ -162,5 +161,35 @@ impl Value {
             Value::Vec4(v) => v,
             Value::Image(_) => return None,
         })
+    }
+}
+
+impl Value {
+    /// The components that this value has on a socket of type `ty`: its own, or one number spread over a vector. None when the
+    /// value does not fit: a vector of another size, a bool as a number, a fraction as an `i32`, an image.
+    pub fn components_as(&self, ty: Type) -> Option<Vec<f32>> {
+        match (self, ty) {
+            (Value::Bool(b), Type::Bool) => Some(vec![f32::from(*b)]),
+            (Value::Number(x), Type::I32) => {
+                (x.fract() == 0.0 && (-2_147_483_648.0..2_147_483_648.0).contains(x)).then(|| vec![*x])
+            }
+            (Value::Number(x), Type::F32 | Type::Vec2 | Type::Vec3 | Type::Vec4) => Some(vec![*x; ty.components()]),
+            (Value::Vec2(_) | Value::Vec3(_) | Value::Vec4(_), _) => {
+                (self.ty() == Some(ty)).then(|| self.components().map(<[f32]>::to_vec)).flatten()
+            }
+            _ => None,
+        }
+    }
+
+    /// The type as which the value was written: `f32` for every single number; none for an image.
+    pub fn ty(&self) -> Option<Type> {
+        match self {
+            Value::Bool(_) => Some(Type::Bool),
+            Value::Number(_) => Some(Type::F32),
+            Value::Vec2(_) => Some(Type::Vec2),
+            Value::Vec3(_) => Some(Type::Vec3),
+            Value::Vec4(_) => Some(Type::Vec4),
+            Value::Image(_) => None,
+        }
     }
 }

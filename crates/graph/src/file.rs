@@ -1,0 +1,145 @@
+//! `*.material.json`: reading and writing documents as text, and files replaced in one step.
+//!
+//! The writer's order is fixed and each node and link has a line, so that a change in the editor is a small diff. What this
+//! version does not know (fields, and whole nodes, links or values of a newer version) stays in the document's `unknown` maps and is
+//! written again. Whether a document makes sense is told by `check`, not here.
+
+mod read;
+mod write;
+
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use crate::document::Document;
+
+pub use read::from_json;
+pub use write::to_json;
+
+/// Largest text that is read, in bytes.
+pub const MAX_BYTES: usize = 64 << 20;
+
+/// Why a document was not read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// The text is larger than [`MAX_BYTES`].
+    #[error("the document is larger than {} MiB; is this a material?", MAX_BYTES >> 20)]
+    TooLarge,
+    /// The bytes are not UTF-8.
+    #[error("line {line}: the bytes are no UTF-8 text; save the file as UTF-8")]
+    NotText {
+        /// From 1.
+        line: usize,
+    },
+    /// The text is not JSON.
+    #[error("line {line}, column {column}: {message}")]
+    Syntax {
+        /// From 1.
+        line: usize,
+        /// In characters, from 1.
+        column: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// The text is JSON, but no material.
+    #[error("line {line}, column {column}, at {place}: {message}")]
+    Shape {
+        /// From 1.
+        line: usize,
+        /// In characters, from 1.
+        column: usize,
+        /// The field, such as `nodes.rust.values.scale`.
+        place: String,
+        /// What is wrong and what to write instead.
+        message: String,
+    },
+    /// The file could not be read.
+    #[error("{} could not be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The file could not be written; what was there before is untouched.
+    #[error("{} could not be written: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The file's text was refused.
+    #[error("{}: {source}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// Where and why.
+        source: Box<FileError>,
+    },
+}
+
+/// Reads a document from a file.
+pub fn load(path: &Path) -> Result<Document, FileError> {
+    let in_file = |source| FileError::InFile { path: path.into(), source: Box::new(source) };
+    let read_error = |source| FileError::Read { path: path.into(), source };
+    let mut bytes = Vec::new();
+    let file = fs::File::open(path).map_err(read_error)?;
+    file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(read_error)?;
+    if bytes.len() > MAX_BYTES {
+        return Err(in_file(FileError::TooLarge));
+    }
+    let text = std::str::from_utf8(&bytes).map_err(|e| {
+        let line = bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
+        in_file(FileError::NotText { line })
+    })?;
+    from_json(text).map_err(in_file)
+}
+
+/// Writes a document to a file; the old file stays whole until the new one stands.
+pub fn save(path: &Path, document: &Document) -> Result<(), FileError> {
+    replace(path, to_json(document).as_bytes()).map_err(|source| FileError::Write { path: path.into(), source })
+}
+
+/// Writes a file whole or not at all: into a temporary file of the same folder, which then takes the name. A link is
+/// followed, so that the file it points to is replaced.
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.into());
+    let name =
+        target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
+    let (temporary, mut file) = create_beside(&target, name)?;
+    let written = file
+        .write_all(bytes)
+        .and_then(|()| file.sync_all())
+        .and_then(|()| {
+            drop(file);
+            match fs::metadata(&target) {
+                Ok(old) => fs::set_permissions(&temporary, old.permissions()),
+                Err(_) => Ok(()),
+            }
+        })
+        .and_then(|()| fs::rename(&temporary, &target));
+    if written.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&temporary);
+    }
+    written
+}
+
+/// A new, empty file beside `target`.
+fn create_beside(target: &Path, name: &std::ffi::OsStr) -> io::Result<(PathBuf, fs::File)> {
+    let process = std::process::id();
+    let mut last = io::Error::from(io::ErrorKind::AlreadyExists);
+    for attempt in 0..100 {
+        let mut temporary = std::ffi::OsString::from(".");
+        temporary.push(name);
+        temporary.push(format!(".{process}-{attempt}.tmp"));
+        let path = target.with_file_name(temporary);
+        match fs::OpenOptions::new().write(true).create_new(true).open(&path) {
+            Ok(file) => return Ok((path, file)),
+            Err(e) if e.kind() == io::ErrorKind::AlreadyExists => last = e,
+            Err(e) => return Err(e),
+        }
+    }
+    Err(last)
+}
