@@ -25,6 +25,8 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
+    /// Logarithm to base 2.
+    fn log2(self) -> Self;
     /// `self` to the power `exponent`.
     fn powf(self, exponent: Self) -> Self;
 }
@@ -49,6 +51,9 @@ macro_rules! real {
             }
             fn abs(self) -> Self {
                 self.abs()
+            }
+            fn log2(self) -> Self {
+                self.log2()
             }
             fn powf(self, exponent: Self) -> Self {
                 self.powf(exponent)
