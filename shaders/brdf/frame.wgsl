@@ -1,8 +1,8 @@
 // The shading frame of a point, and the half vector of a light in it. Everything that a lobe asks of directions.
 
-// Smallest n.v: the library's domain of cosines starts here. A shading normal may face away from the viewer (n.v < 0),
-// where no BRDF is defined: such a point is shaded as seen at grazing incidence.
-const N_DOT_V_FLOOR: f32 = 1e-6;
+// Smallest n.v: below the library's domain of cosines, which starts at 1e-6. A shading normal may face away from the
+// viewer (n.v < 0), where no BRDF is defined: such a point is shaded as seen at grazing incidence.
+const N_DOT_V_FLOOR: f32 = 1e-7;
 
 /// A shading normal and the viewer.
 struct Frame {
@@ -10,7 +10,7 @@ struct Frame {
     normal: vec3f,
     /// From the surface to the viewer in world space, unit.
     view_dir: vec3f,
-    /// n.v in [1e-6, 1].
+    /// n.v in [1e-7, 1].
     n_dot_v: f32,
 }
 

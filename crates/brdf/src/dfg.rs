@@ -5,6 +5,8 @@ use crate::Real;
 /// Karis 2014, Physically Based Shading on Mobile: a fit of (a, b) over n.v and perceptual roughness.
 ///
 /// Domain: both arguments in [0, 1]. b of the fit falls to -0.0024 at roughness 1; both are held at 0 and above.
+/// Error in f32: <= 3e-7. Against GGX with the height-correlated V, over the whole square: a off by up to 0.48 (rms 0.13),
+/// b by up to 0.085 (rms 0.021), worst at grazing angles and roughness 1.
 #[inline]
 pub fn dfg_karis<R: Real>(n_dot_v: R, perceptual_roughness: R) -> [R; 2] {
     let fit = |slope: f64, offset: f64| perceptual_roughness * R::of(slope) + R::of(offset);

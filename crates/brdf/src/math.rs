@@ -16,7 +16,7 @@ const FINITE_CEILING: f64 = 3e38;
 
 /// x^5 by three products.
 ///
-/// Domain: |x| < 2e7 (its fifth power is still an f32). Error in f32: 2 ulp.
+/// Domain: |x| < 2e7 (its fifth power is still an f32). Error in f32: <= 3 ulp.
 #[inline]
 pub fn pow5<R: Real>(x: R) -> R {
     let x2 = x * x;
@@ -25,7 +25,7 @@ pub fn pow5<R: Real>(x: R) -> R {
 
 /// v / |v|, or `fallback` where v has no direction: zero, NaN, infinite, or of a length outside 3e-19 .. 3e18.
 ///
-/// `fallback` is returned as it is. Error in f32: 2 ulp a component.
+/// `fallback` is returned as it is. Error in f32: <= 3 ulp a component.
 #[inline]
 pub fn normalize_or<R: Real>(v: [R; 3], fallback: [R; 3]) -> [R; 3] {
     let length2 = dot(v, v);
