@@ -7,6 +7,7 @@ pub mod context;
 pub mod document;
 pub mod file;
 mod json;
+pub mod library;
 pub mod method;
 pub mod needs;
 pub mod node_def;

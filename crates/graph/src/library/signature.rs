@@ -1,0 +1,215 @@
+//! Signatures of the library's functions, from naga: argument and result types, docs of struct members, implicit derivatives.
+//! The only file of this crate that names naga.
+
+use std::collections::HashMap;
+
+use super::{LibraryProblem, Source, line_of};
+use crate::value::{SocketType, Type};
+
+/// What a function takes and gives.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Signature {
+    pub(super) arguments: Vec<(String, ArgumentType)>,
+    pub(super) result: ResultType,
+    pub(super) implicit_derivatives: bool,
+}
+
+/// Type of an argument or member.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum ArgumentType {
+    Socket(SocketType),
+    Sampler,
+    /// One that no socket has.
+    Other,
+}
+
+/// Type of a result.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum ResultType {
+    None,
+    Plain(ArgumentType),
+    Struct { name: String, members: Vec<Member> },
+}
+
+/// Member of a result struct.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Member {
+    pub(super) name: String,
+    pub(super) ty: ArgumentType,
+    /// Its doc comment, lines joined.
+    pub(super) help: String,
+}
+
+/// The signatures of all functions of a library.
+pub(super) struct Signatures {
+    /// By name; for each the one with `T` as its file's first type and the one with the second.
+    functions: HashMap<String, [Signature; 2]>,
+}
+
+/// Stack for naga, which recurses; the slicer has bounded the nesting before.
+const STACK: usize = 64 << 20;
+
+impl Signatures {
+    /// Parses the files as one module, once for each of two types of `T`.
+    pub(super) fn read(sources: &[Source]) -> Result<Signatures, LibraryProblem> {
+        let both = [0, 1].map(|choice| {
+            let joined: Vec<String> = sources
+                .iter()
+                .enumerate()
+                .map(|(i, source)| source.with_generic(&format!("T_{i}"), source.generic.get(choice).copied()))
+                .collect();
+            joined.join("\n")
+        });
+        let parsed = std::thread::scope(|scope| {
+            let workers = both
+                .each_ref()
+                .map(|text| std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || read_module(text)));
+            workers.map(|worker| match worker {
+                Ok(worker) => worker.join().unwrap_or_else(|_| Err((0, "the WGSL parser failed".into()))),
+                Err(e) => Err((0, format!("no thread to parse in: {e}"))),
+            })
+        });
+        let [first, second] = parsed;
+        let (first, mut second) =
+            (first.map_err(|e| locate(e, sources, &both[0]))?, second.map_err(|e| locate(e, sources, &both[1]))?);
+        let pair = |(name, signature)| {
+            let other = second.remove(&name).unwrap_or_else(|| Signature::clone(&signature));
+            (name, [signature, other])
+        };
+        Ok(Signatures { functions: first.into_iter().map(pair).collect() })
+    }
+
+    /// The signature of a function of `source`, with `T` as [`SocketType::Generic`].
+    pub(super) fn get(&self, source: &Source, name: &str) -> Option<Signature> {
+        let [first, second] = self.functions.get(name)?;
+        let merge = |a: &ArgumentType, b: &ArgumentType| {
+            if a == b { a.clone() } else { ArgumentType::Socket(SocketType::Generic) }
+        };
+        let mut merged = first.clone();
+        if source.generic.is_empty() {
+            return Some(merged);
+        }
+        for (argument, other) in merged.arguments.iter_mut().zip(&second.arguments) {
+            argument.1 = merge(&argument.1, &other.1);
+        }
+        match (&mut merged.result, &second.result) {
+            (ResultType::Plain(ty), ResultType::Plain(other)) => *ty = merge(ty, other),
+            (ResultType::Struct { members, .. }, ResultType::Struct { members: others, .. }) => {
+                for (member, other) in members.iter_mut().zip(others) {
+                    member.ty = merge(&member.ty, &other.ty);
+                }
+            }
+            _ => {}
+        }
+        Some(merged)
+    }
+}
+
+/// A place in the joined text and what is wrong there.
+type ParseError = (usize, String);
+
+fn locate((at, message): ParseError, sources: &[Source], joined: &str) -> LibraryProblem {
+    let mut line = line_of(joined, at.min(joined.len()));
+    for source in sources {
+        let lines = source.text.matches('\n').count() + 1;
+        if line <= lines {
+            return LibraryProblem { file: source.path.into(), line, message };
+        }
+        line -= lines;
+    }
+    LibraryProblem { file: sources.last().map_or("", |s| s.path).into(), line, message }
+}
+
+fn read_module(text: &str) -> Result<HashMap<String, Signature>, ParseError> {
+    let mut options = naga::front::wgsl::Options::new();
+    options.parse_doc_comments = true;
+    let module = naga::front::wgsl::Frontend::new_with_options(options).parse(text).map_err(|e| {
+        let at = e.location(text).map_or(0, |location| location.offset as usize);
+        let notes: Vec<&str> = e.labels().map(|(_, label)| label).filter(|label| !label.is_empty()).collect();
+        let message =
+            if notes.is_empty() { e.message().into() } else { format!("{} ({})", e.message(), notes.join("; ")) };
+        (at, message)
+    })?;
+    let mut implicit = Vec::with_capacity(module.functions.len());
+    let mut signatures = HashMap::new();
+    for (_, function) in module.functions.iter() {
+        // Callees come first in naga's arena, so one pass is enough.
+        let takes = takes_derivatives(function, &implicit);
+        implicit.push(takes);
+        let arguments = function
+            .arguments
+            .iter()
+            .map(|a| (a.name.clone().unwrap_or_default(), argument_type(&module.types[a.ty].inner)))
+            .collect();
+        let result = function.result.as_ref().map_or(ResultType::None, |result| result_type(&module, result.ty));
+        let name = function.name.clone().unwrap_or_default();
+        signatures.insert(name, Signature { arguments, result, implicit_derivatives: takes });
+    }
+    Ok(signatures)
+}
+
+/// Whether a function takes implicit derivatives, itself or through a callee; `of_callees` holds the answer for each function before it.
+fn takes_derivatives(function: &naga::Function, of_callees: &[bool]) -> bool {
+    use naga::{Expression, SampleLevel, Statement};
+    let own = function.expressions.iter().any(|(_, expression)| match expression {
+        Expression::Derivative { .. } => true,
+        Expression::ImageSample { level, .. } => matches!(level, SampleLevel::Auto | SampleLevel::Bias(_)),
+        _ => false,
+    });
+    let mut blocks = vec![&function.body];
+    while let (false, Some(block)) = (own, blocks.pop()) {
+        for statement in block {
+            match statement {
+                Statement::Call { function, .. } if of_callees.get(function.index()).copied().unwrap_or(false) => {
+                    return true;
+                }
+                Statement::Block(block) => blocks.push(block),
+                Statement::If { accept, reject, .. } => blocks.extend([accept, reject]),
+                Statement::Switch { cases, .. } => blocks.extend(cases.iter().map(|case| &case.body)),
+                Statement::Loop { body, continuing, .. } => blocks.extend([body, continuing]),
+                _ => {}
+            }
+        }
+    }
+    own
+}
+
+fn argument_type(inner: &naga::TypeInner) -> ArgumentType {
+    use naga::{ImageClass, ImageDimension, Scalar, ScalarKind, TypeInner, VectorSize};
+    let ty = match *inner {
+        TypeInner::Scalar(Scalar::BOOL) => Type::Bool,
+        TypeInner::Scalar(Scalar::I32) => Type::I32,
+        TypeInner::Scalar(Scalar::F32) => Type::F32,
+        TypeInner::Vector { size: VectorSize::Bi, scalar: Scalar::F32 } => Type::Vec2,
+        TypeInner::Vector { size: VectorSize::Tri, scalar: Scalar::F32 } => Type::Vec3,
+        TypeInner::Vector { size: VectorSize::Quad, scalar: Scalar::F32 } => Type::Vec4,
+        TypeInner::Sampler { comparison: false } => return ArgumentType::Sampler,
+        TypeInner::Image {
+            dim: ImageDimension::D2,
+            arrayed: false,
+            class: ImageClass::Sampled { kind: ScalarKind::Float, multi: false },
+        } => return ArgumentType::Socket(SocketType::Texture),
+        _ => return ArgumentType::Other,
+    };
+    ArgumentType::Socket(SocketType::Value(ty))
+}
+
+fn result_type(module: &naga::Module, ty: naga::Handle<naga::Type>) -> ResultType {
+    let naga::TypeInner::Struct { members, .. } = &module.types[ty].inner else {
+        return ResultType::Plain(argument_type(&module.types[ty].inner));
+    };
+    let docs = module.doc_comments.as_deref();
+    let read = |(i, member): (usize, &naga::StructMember)| {
+        let lines = docs.and_then(|docs| docs.struct_members.get(&(ty, i)));
+        let lines = lines.into_iter().flatten().map(|line| line.trim_start_matches('/').trim());
+        Member {
+            name: member.name.clone().unwrap_or_default(),
+            ty: argument_type(&module.types[member.ty].inner),
+            help: lines.collect::<Vec<_>>().join(" "),
+        }
+    };
+    ResultType::Struct {
+        name: module.types[ty].name.clone().unwrap_or_default(),
+        members: members.iter().enumerate().map(read).collect(),
+    }
+}
