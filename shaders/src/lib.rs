@@ -38,6 +38,7 @@ pub const FILES: &[File] = files![
     "brdf/metallic_roughness.wgsl",
     "brdf/multiscatter.wgsl",
     "color.wgsl",
+    "entry/background.wgsl",
     "ibl/environment.wgsl",
     "light.wgsl",
     "maps/height.wgsl",
