@@ -1,0 +1,98 @@
+// Sums of gradient noise over octaves. Each octave has its own seed, so that the lattices' common points do not show.
+
+/// Most octaves of a sum.
+const MAX_OCTAVES: i32 = 8;
+
+/// Fractal Noise 2D
+///
+/// Fractional Brownian motion: octaves of gradient noise, each finer by the lacunarity and weaker by the gain, over the
+/// sum of their weights. Musgrave, Kolb and Mace 1989, "The synthesis and rendering of eroded fractal terrains".
+/// @node procedural/fbm_2d   @also fractal, perlin, clouds, turbulence, fractional brownian motion
+/// - uv: coordinates [context uv0]
+/// - scale: lattice points of the first octave per unit [4; 0..64]
+/// - octaves: how many; held in 1..8 [5; 1..8]
+/// - lacunarity: how much finer each octave is; held in 1..4 [2; 1..4]
+/// - gain: how much weaker each octave is; held in 0..1 [0.5; 0..1]
+/// - seed: another one, another pattern [0; 0..100]
+/// - return: -1 to 1, mean 0
+fn node_procedural_fbm_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
+    var p = uv * scale;
+    var weight = 1.0;
+    var total = vec2f(0.0);
+    for (var i = 0; i < clamp(octaves, 1, MAX_OCTAVES); i++) {
+        total += weight * vec2f(gradient_noise2(p, seed + i), 1.0);
+        p *= clamp(lacunarity, 1.0, 4.0);
+        weight *= clamp(gain, 0.0, 1.0);
+    }
+    return total.x / total.y;
+}
+
+/// Fractal Noise 3D
+///
+/// Fractional Brownian motion: octaves of gradient noise, each finer by the lacunarity and weaker by the gain, over the
+/// sum of their weights. Musgrave, Kolb and Mace 1989, "The synthesis and rendering of eroded fractal terrains".
+/// @node procedural/fbm_3d   @also fractal, perlin, clouds, turbulence, fractional brownian motion
+/// - position: the point [context object_position]
+/// - scale: lattice points of the first octave per metre [4; 0..64]
+/// - octaves: how many; held in 1..8 [5; 1..8]
+/// - lacunarity: how much finer each octave is; held in 1..4 [2; 1..4]
+/// - gain: how much weaker each octave is; held in 0..1 [0.5; 0..1]
+/// - seed: another one, another pattern [0; 0..100]
+/// - return: -1 to 1, mean 0
+fn node_procedural_fbm_3d(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
+    var p = position * scale;
+    var weight = 1.0;
+    var total = vec2f(0.0);
+    for (var i = 0; i < clamp(octaves, 1, MAX_OCTAVES); i++) {
+        total += weight * vec2f(gradient_noise3(p, seed + i), 1.0);
+        p *= clamp(lacunarity, 1.0, 4.0);
+        weight *= clamp(gain, 0.0, 1.0);
+    }
+    return total.x / total.y;
+}
+
+/// Turbulence 2D
+///
+/// Octaves of the absolute value of gradient noise: billows with sharp valleys. Perlin 1985, "An Image Synthesizer".
+/// @node procedural/turbulence_2d   @also billow, marble, smoke, veins
+/// - uv: coordinates [context uv0]
+/// - scale: lattice points of the first octave per unit [4; 0..64]
+/// - octaves: how many; held in 1..8 [5; 1..8]
+/// - lacunarity: how much finer each octave is; held in 1..4 [2; 1..4]
+/// - gain: how much weaker each octave is; held in 0..1 [0.5; 0..1]
+/// - seed: another one, another pattern [0; 0..100]
+/// - return: 0 to 1
+fn node_procedural_turbulence_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
+    var p = uv * scale;
+    var weight = 1.0;
+    var total = vec2f(0.0);
+    for (var i = 0; i < clamp(octaves, 1, MAX_OCTAVES); i++) {
+        total += weight * vec2f(abs(gradient_noise2(p, seed + i)), 1.0);
+        p *= clamp(lacunarity, 1.0, 4.0);
+        weight *= clamp(gain, 0.0, 1.0);
+    }
+    return total.x / total.y;
+}
+
+/// Turbulence 3D
+///
+/// Octaves of the absolute value of gradient noise: billows with sharp valleys. Perlin 1985, "An Image Synthesizer".
+/// @node procedural/turbulence_3d   @also billow, marble, smoke, veins
+/// - position: the point [context object_position]
+/// - scale: lattice points of the first octave per metre [4; 0..64]
+/// - octaves: how many; held in 1..8 [5; 1..8]
+/// - lacunarity: how much finer each octave is; held in 1..4 [2; 1..4]
+/// - gain: how much weaker each octave is; held in 0..1 [0.5; 0..1]
+/// - seed: another one, another pattern [0; 0..100]
+/// - return: 0 to 1
+fn node_procedural_turbulence_3d(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
+    var p = position * scale;
+    var weight = 1.0;
+    var total = vec2f(0.0);
+    for (var i = 0; i < clamp(octaves, 1, MAX_OCTAVES); i++) {
+        total += weight * vec2f(abs(gradient_noise3(p, seed + i)), 1.0);
+        p *= clamp(lacunarity, 1.0, 4.0);
+        weight *= clamp(gain, 0.0, 1.0);
+    }
+    return total.x / total.y;
+}
