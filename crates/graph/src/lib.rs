@@ -11,7 +11,9 @@ pub mod library;
 pub mod method;
 pub mod needs;
 pub mod node_def;
+pub mod resolve;
 pub mod value;
+pub mod wiring;
 
 /// The version of the document format that this program writes.
 pub const FORMAT_VERSION: u32 = 1;
