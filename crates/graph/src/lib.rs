@@ -3,8 +3,11 @@
 //! Reading order: `value`, `document` (the plain data), `node_def` and `library` (what a node is and where it comes from), `resolve` and
 //! `check` (what a document means), `edit`, `file`. Nothing here makes a shader, looks at a picture or opens a window.
 
+pub mod check;
 pub mod context;
+pub mod docs;
 pub mod document;
+pub mod edit;
 pub mod file;
 mod json;
 pub mod library;
@@ -17,3 +20,6 @@ pub mod wiring;
 
 /// The version of the document format that this program writes.
 pub const FORMAT_VERSION: u32 = 1;
+
+#[cfg(test)]
+mod tests;

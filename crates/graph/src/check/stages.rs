@@ -1,0 +1,84 @@
+//! Problems of stages: what feeds the surface's height runs in the vertex stage, which has no implicit derivatives and may lack a
+//! context. And what the stages do that a user may not expect.
+
+use super::Checker;
+use crate::context::{Context, context};
+use crate::node_def::Default;
+use crate::value::Value;
+
+/// Perceptual roughness below which punctual lights draw this value instead.
+const PUNCTUAL_ROUGHNESS_FLOOR: f32 = 0.045;
+
+pub(super) fn check(checker: &mut Checker, surface: &str) {
+    if let Some(height) = checker.wiring.incoming(surface, "height") {
+        // A ring is reported as such.
+        for id in checker.wiring.order(&[&height.node]).unwrap_or_default() {
+            vertex_stage(checker, id);
+        }
+    }
+    roughness(checker, surface);
+}
+
+fn vertex_stage(checker: &mut Checker, id: &str) {
+    let Some(def) = checker.document.nodes.get(id).and_then(|node| checker.library.get(&node.node)) else { return };
+    if def.function.implicit_derivatives && def.vertex_function.is_none() {
+        let message = format!(
+            "it feeds the surface's height, which is computed for each vertex, but `{}` compares neighbouring pixels and works in the fragment stage only; feed height from another node",
+            def.id
+        );
+        checker.wrong(id, None, message);
+    }
+    for input in &def.inputs {
+        let is_free = checker.wiring.incoming(id, &input.name).is_none()
+            && checker.document.nodes[id].values.get(&input.name).is_none();
+        if let (true, Default::Context(name)) = (is_free, &input.default)
+            && let Some(message) = context(name).and_then(vertex_stage_lacks)
+        {
+            checker.wrong(id, Some(&input.name), message);
+        }
+    }
+}
+
+/// Why a context cannot feed the height, if it cannot.
+fn vertex_stage_lacks(context: &Context) -> Option<String> {
+    (!context.vertex).then(|| {
+        format!(
+            "it reads `{}` and feeds the surface's height, which is computed for each vertex, where that is not known; link or set another value",
+            context.name
+        )
+    })
+}
+
+fn roughness(checker: &mut Checker, surface: &str) {
+    const SOCKET: &str = "perceptual_roughness";
+    let Some(node) = checker.document.nodes.get(surface) else { return };
+    let default = || {
+        let def = checker.library.get(&node.node)?;
+        match &def.inputs.iter().find(|input| input.name == SOCKET)?.default {
+            Default::Value(value) => Some(value),
+            _ => None,
+        }
+    };
+    if checker.wiring.incoming(surface, SOCKET).is_none()
+        && let Some(Value::Number(x)) = node.values.get(SOCKET).or_else(default)
+        && *x < PUNCTUAL_ROUGHNESS_FLOOR
+    {
+        let message = format!(
+            "punctual lights draw a roughness of {x} as {PUNCTUAL_ROUGHNESS_FLOOR}, for a sharper highlight would be smaller than a pixel; environments use {x}"
+        );
+        checker.warn(surface, Some(SOCKET), message);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::value::Type;
+
+    #[test]
+    fn a_context_of_the_fragment_stage_cannot_feed_the_height() {
+        let context = Context { name: "front_facing", ty: Type::Bool, vertex: false, help: "" };
+        assert!(vertex_stage_lacks(&context).is_some_and(|message| message.contains("front_facing")));
+        assert!(vertex_stage_lacks(&Context { vertex: true, ..context }).is_none());
+    }
+}

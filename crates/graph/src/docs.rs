@@ -1,0 +1,166 @@
+//! The library and the methods as documents: Markdown for people, JSON for programs.
+
+use std::fmt::Write;
+
+use serde_json::{Value as Json, json};
+
+use crate::library::Library;
+use crate::method::TERMS;
+use crate::node_def::{Default, Input, NodeDef};
+use crate::value::{ColorSpace, SocketType, Value};
+
+/// All nodes, by category, with sockets, defaults, ranges and help.
+pub fn nodes_markdown(library: &Library) -> String {
+    let mut out = String::from(
+        "# Nodes\n\nGenerated from the doc comments under `shaders/nodes/`. A node is a WGSL function; `T` stands for the widest type that comes into the node.\n",
+    );
+    let mut category = "";
+    for def in library.iter() {
+        let own = def.id.split('/').next().unwrap_or("");
+        if own != category {
+            category = own;
+            let _ = write!(out, "\n## {category}\n");
+        }
+        node_markdown(def, &mut out);
+    }
+    out
+}
+
+fn node_markdown(def: &NodeDef, out: &mut String) {
+    let _ = write!(out, "\n### {}\n\n`{}`", def.label, def.id);
+    if !def.generic.is_empty() {
+        let types: Vec<&str> = def.generic.iter().map(|ty| ty.wgsl()).collect();
+        let _ = write!(out, ", T = {}", types.join(", "));
+    }
+    if !def.synonyms.is_empty() {
+        let _ = write!(out, "; also: {}", def.synonyms.join(", "));
+    }
+    let _ = write!(out, "\n\n{}\n", def.help);
+    if !def.inputs.is_empty() {
+        out.push_str("\n| input | type | default | range | unit | |\n|---|---|---|---|---|---|\n");
+        for input in &def.inputs {
+            let range = input.range.map_or(String::new(), |[lo, hi]| format!("{lo} to {hi}"));
+            let _ = writeln!(
+                out,
+                "| `{}` | {} | {} | {range} | {} | {} |",
+                input.name,
+                type_name(input.ty),
+                default_text(&input.default),
+                input.unit,
+                cell(&input.help)
+            );
+        }
+    }
+    out.push_str("\n| output | type | |\n|---|---|---|\n");
+    for output in &def.outputs {
+        let _ = writeln!(out, "| `{}` | {} | {} |", output.name, type_name(output.ty), cell(&output.help));
+    }
+}
+
+/// Text for a cell of a table: a bar would end it.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|").replace('\n', " ")
+}
+
+fn type_name(ty: SocketType) -> &'static str {
+    match ty {
+        SocketType::Value(ty) => ty.wgsl(),
+        SocketType::Generic => "T",
+        SocketType::Texture => "picture",
+        SocketType::Surface => "surface",
+    }
+}
+
+fn default_text(default: &Default) -> String {
+    match default {
+        Default::Value(Value::Bool(b)) => b.to_string(),
+        Default::Value(value) => {
+            let numbers: Vec<String> = value.components().unwrap_or(&[]).iter().map(f32::to_string).collect();
+            numbers.join(", ")
+        }
+        Default::Context(name) => format!("`{name}`"),
+        Default::Image(ColorSpace::Srgb) => "a picture, sRGB".into(),
+        Default::Image(ColorSpace::Linear) => "a picture, linear".into(),
+    }
+}
+
+/// All terms and their methods.
+pub fn methods_markdown() -> String {
+    let mut out =
+        String::from("# Methods\n\nChosen with `--method TERM=NAME`; the first of each term is the default.\n");
+    for term in TERMS {
+        let _ = write!(
+            out,
+            "\n## {}\n\n{}. The report uses `{}`.\n\n| method | source |\n|---|---|\n",
+            term.name,
+            capital(term.help),
+            term.report
+        );
+        for method in term.methods {
+            let _ = writeln!(out, "| `{}` | {} |", method.name, cell(method.source));
+        }
+    }
+    out
+}
+
+fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or(String::new(), |first| first.to_uppercase().chain(chars).collect())
+}
+
+/// `{"nodes": [{"id", "label", "help", "synonyms", "generic", "inputs", "outputs", "file"}]}`, in order of id. Numbers without
+/// bound in a range are null.
+pub fn nodes_json(library: &Library) -> Json {
+    let nodes: Vec<Json> = library
+        .iter()
+        .map(|def| {
+            let outputs: Vec<Json> = def
+                .outputs
+                .iter()
+                .map(|output| json!({"name": output.name, "type": type_name(output.ty), "help": output.help}))
+                .collect();
+            json!({
+                "id": def.id,
+                "label": def.label,
+                "help": def.help,
+                "synonyms": def.synonyms,
+                "generic": def.generic.iter().map(|ty| ty.wgsl()).collect::<Vec<_>>(),
+                "inputs": def.inputs.iter().map(input_json).collect::<Vec<_>>(),
+                "outputs": outputs,
+                "file": def.file,
+            })
+        })
+        .collect();
+    json!({ "nodes": nodes })
+}
+
+fn input_json(input: &Input) -> Json {
+    let default = match &input.default {
+        Default::Value(Value::Bool(b)) => json!(b),
+        Default::Value(Value::Number(x)) => json!(x),
+        Default::Value(value) => json!(value.components()),
+        Default::Context(name) => json!({ "context": name }),
+        Default::Image(space) => json!({ "image": space }),
+    };
+    json!({
+        "name": input.name,
+        "type": type_name(input.ty),
+        "default": default,
+        "range": input.range,
+        "unit": input.unit,
+        "help": input.help,
+    })
+}
+
+/// `{"methods": [{"term", "help", "default", "report", "methods": [{"name", "source"}]}]}`.
+pub fn methods_json() -> Json {
+    let terms: Vec<Json> = TERMS
+        .iter()
+        .map(|term| {
+            let methods: Vec<Json> =
+                term.methods.iter().map(|method| json!({"name": method.name, "source": method.source})).collect();
+            json!({"term": term.name, "help": term.help, "default": term.methods[0].name, "report": term.report, "methods": methods})
+        })
+        .collect();
+    json!({ "methods": terms })
+}
