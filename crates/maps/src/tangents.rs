@@ -15,7 +15,7 @@ use crate::real::{add, dot, normalize_or, plus_z};
 /// A mesh with its vertices doubled where triangles meet that do not share a tangent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SplitTangents {
-    /// Three indices a triangle, into `source` and `tangents`.
+    /// Three indices a triangle, into `source` and `tangents`. One that was out of range is `u32::MAX`.
     pub indices: Vec<u32>,
     /// For each vertex the one that it was before: `positions[source[i]]` and so on. Old vertices come first, in order.
     pub source: Vec<u32>,
@@ -69,8 +69,8 @@ pub fn split_tangents(
         .iter()
         .zip(&corners)
         .map(|(&vertex, corner)| {
-            let Some(corner) = *corner else { return vertex };
             let mut at = vertex as usize;
+            let Some(corner) = *corner else { return if at < positions.len() { vertex } else { NONE } };
             loop {
                 match tangents[at] {
                     None => {
