@@ -192,10 +192,10 @@ impl SocketRef {
         SocketRef { node: node.into(), socket: socket.into() }
     }
 
-    /// Reads `node.socket`.
+    /// Reads `node.socket`. Sockets have no dot in their names, so that even a node with one in its id is found again.
     pub fn parse(written: &str) -> Option<SocketRef> {
-        let (node, socket) = written.split_once('.')?;
-        (!node.is_empty() && !socket.is_empty()).then(|| SocketRef::new(node, socket))
+        let (node, socket) = written.rsplit_once('.')?;
+        Some(SocketRef::new(node, socket))
     }
 }
 

@@ -1,10 +1,10 @@
 //! Changes of a document, each with its exact inverse: an editor's undo is the list of inverses.
 //!
-//! An edit looks at the document only: whether a link makes sense is told by `check`, so that a half-made material can be worked
+//! An edit looks at the document only: whether it makes sense is told by `check`, so that a half-made material can be worked
 //! on. An edit that cannot be made changes nothing. Every edit keeps the order of everything that it does not touch, so that undoing
 //! gives back the same file.
 
-use crate::document::{Document, Link, Node, NodeId, Parameter, SocketRef, SurfaceSettings, is_name};
+use crate::document::{Document, Link, Node, NodeId, Parameter, SocketRef, SurfaceSettings};
 use crate::value::Value;
 
 /// A change of a document.
@@ -12,7 +12,7 @@ use crate::value::Value;
 pub enum Edit {
     /// Adds a node. Links that name its id already become its own.
     AddNode {
-        /// Free, and a name.
+        /// Free.
         id: NodeId,
         /// The node.
         node: Node,
@@ -31,7 +31,7 @@ pub enum Edit {
     RenameNode {
         /// Which.
         id: NodeId,
-        /// Named by nothing in the document, and a name.
+        /// Named by nothing in the document.
         to: NodeId,
     },
     /// Sets the value of an input, or removes it so that the default holds.
@@ -96,7 +96,7 @@ pub enum Edit {
     MoveNode {
         /// Which.
         id: NodeId,
-        /// Finite; none to forget.
+        /// None to forget.
         position: Option<[f32; 2]>,
     },
     /// Renames the material.
@@ -117,9 +117,6 @@ pub enum EditError {
     /// The id is taken.
     #[error("the id `{0}` is in use; choose another one")]
     Taken(NodeId),
-    /// The id is no name.
-    #[error("`{0}` is no id; use letters, digits and _, first a letter (labels may be anything)")]
-    BadId(String),
     /// The link does not exist.
     #[error("there is no link from {} to {}", .0.from, .0.to)]
     NoLink(Link),
@@ -131,9 +128,6 @@ pub enum EditError {
         /// Of the list.
         length: usize,
     },
-    /// A position is not finite.
-    #[error("the position of `{0}` is no finite number")]
-    BadPosition(NodeId),
 }
 
 /// Makes an edit and returns the one that undoes it, exactly.
@@ -247,9 +241,6 @@ fn add_node(document: &mut Document, id: &str, node: &Node) -> Result<Edit, Edit
     if document.nodes.contains_key(id) {
         return Err(EditError::Taken(id.into()));
     }
-    if !is_name(id) {
-        return Err(EditError::BadId(id.into()));
-    }
     document.nodes.insert(id.into(), node.clone());
     Ok(Edit::TakeNode { id: id.into() })
 }
@@ -273,9 +264,6 @@ fn remove_node(document: &mut Document, id: &str) -> Result<Edit, EditError> {
 fn rename_node(document: &mut Document, id: &str, to: &str) -> Result<Edit, EditError> {
     if !document.nodes.contains_key(id) {
         return Err(EditError::NoNode(id.into()));
-    }
-    if !is_name(to) {
-        return Err(EditError::BadId(to.into()));
     }
     // Links of a missing node would come into the renamed one's hands, and undoing would not give them back.
     let is_named = document.nodes.contains_key(to)
@@ -314,7 +302,6 @@ fn add_link(document: &mut Document, link: &Link) -> Result<Edit, EditError> {
 fn move_node(document: &mut Document, id: &str, position: Option<[f32; 2]>) -> Result<Edit, EditError> {
     node_mut(document, id)?;
     let old = match position {
-        Some(position) if position.iter().any(|x| !x.is_finite()) => return Err(EditError::BadPosition(id.into())),
         Some(position) => document.layout.insert(id.into(), position),
         None => document.layout.remove(id),
     };

@@ -105,7 +105,8 @@ impl Parser<'_> {
     fn found(&self) -> String {
         match self.text.get(self.at..).and_then(|rest| rest.chars().next()) {
             None => "the text ends".into(),
-            Some(c) => format!("`{}` stands", c.escape_debug()),
+            Some(c) if c.is_control() => format!("`{}` stands", c.escape_default()),
+            Some(c) => format!("`{c}` stands"),
         }
     }
 

@@ -2,17 +2,17 @@
 //!
 //! It reports nothing: links that do not fit are found by `check`, which compares the types given here.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 
-use crate::document::{Document, NodeId};
+use crate::document::Document;
 use crate::library::Library;
 use crate::node_def::NodeDef;
 use crate::value::{SocketType, Type};
 use crate::wiring::Wiring;
 
 /// The types of the known nodes of a document.
-pub struct Types<'l> {
-    nodes: BTreeMap<NodeId, NodeTypes<'l>>,
+pub struct Types<'a> {
+    nodes: HashMap<&'a str, NodeTypes<'a>>,
 }
 
 /// The types of a node's sockets.
@@ -44,28 +44,23 @@ impl NodeTypes<'_> {
     }
 }
 
-impl<'l> Types<'l> {
+impl<'a> Types<'a> {
     /// The types of a node; none when the document has no such node or the library no such definition.
-    pub fn get(&self, node: &str) -> Option<&NodeTypes<'l>> {
+    pub fn get(&self, node: &str) -> Option<&NodeTypes<'a>> {
         self.nodes.get(node)
-    }
-
-    /// All known nodes, in order of id.
-    pub fn iter(&self) -> impl Iterator<Item = (&str, &NodeTypes<'l>)> {
-        self.nodes.iter().map(|(id, types)| (id.as_str(), types))
     }
 }
 
 /// The types of all sockets. `T` of a node is the narrowest of its types that every generic input can be converted to: the
 /// connected ones by what feeds them, the others by the value set on them (one number fits all). When there is none, it is
 /// the widest that comes in, and some input does not fit. With nothing connected or set it is the narrowest.
-pub fn resolve_types<'l>(document: &Document, library: &'l Library) -> Types<'l> {
+pub fn resolve_types<'a>(document: &'a Document, library: &'a Library) -> Types<'a> {
     resolve_in(document, library, &Wiring::new(document))
 }
 
 /// [`resolve_types`] for a caller that has the wiring already.
-pub fn resolve_in<'l>(document: &Document, library: &'l Library, wiring: &Wiring) -> Types<'l> {
-    let mut types = Types { nodes: BTreeMap::new() };
+pub fn resolve_in<'a>(document: &'a Document, library: &'a Library, wiring: &Wiring<'a>) -> Types<'a> {
+    let mut types = Types { nodes: HashMap::with_capacity(document.nodes.len()) };
     for id in wiring.order_of_all() {
         let Some(def) = document.nodes.get(id).and_then(|node| library.get(&node.node)) else { continue };
         let generic = (!def.generic.is_empty()).then(|| {
@@ -77,7 +72,7 @@ pub fn resolve_in<'l>(document: &Document, library: &'l Library, wiring: &Wiring
                 .collect();
             generic_type(&def.generic, &incoming)
         });
-        types.nodes.insert(id.into(), NodeTypes { def, generic });
+        types.nodes.insert(id, NodeTypes { def, generic });
     }
     types
 }

@@ -15,6 +15,8 @@ pub struct Wiring<'d> {
     index: HashMap<&'d str, usize>,
     /// By node: what feeds its inputs, by input.
     incoming: Vec<BTreeMap<&'d str, &'d SocketRef>>,
+    /// By node: the nodes that feed it, in order of its inputs.
+    feeding: Vec<Vec<usize>>,
     /// By node: the links that start at it, in the document's order.
     outgoing: Vec<Vec<&'d Link>>,
 }
@@ -51,7 +53,16 @@ impl<'d> Wiring<'d> {
                 }
             }
         }
-        Wiring { ids, index, incoming, outgoing }
+        let feeding = |sockets: &BTreeMap<&str, &SocketRef>| {
+            sockets.values().filter_map(|from| index.get(from.node.as_str()).copied()).collect()
+        };
+        let feeding = incoming.iter().map(feeding).collect();
+        Wiring { ids, index, incoming, feeding, outgoing }
+    }
+
+    /// Whether the document has this node.
+    pub fn contains(&self, node: &str) -> bool {
+        self.index.contains_key(node)
     }
 
     /// The output that feeds an input.
@@ -91,7 +102,7 @@ impl<'d> Wiring<'d> {
 
     /// The nodes that feed node `i`, in order of its inputs.
     fn feeding(&self, i: usize) -> impl Iterator<Item = usize> + use<'_, 'd> {
-        self.incoming[i].values().filter_map(|from| self.index.get(from.node.as_str()).copied())
+        self.feeding[i].iter().copied()
     }
 
     /// Post-order of a depth-first walk against the links, and the first ring that it met, if any.

@@ -25,14 +25,13 @@ pub(super) fn check(checker: &mut Checker) {
 }
 
 fn ends(checker: &mut Checker, link: &Link) {
-    let document = checker.document;
-    if !document.nodes.contains_key(&link.to.node) {
+    if !checker.wiring.contains(&link.to.node) {
         let message =
             format!("a link from {} leads to `{}`, but there is no such node; remove the link", link.from, link.to);
         checker.warn(&link.to.node, Some(&link.to.socket), message);
         return;
     }
-    if !document.nodes.contains_key(&link.from.node) {
+    if !checker.wiring.contains(&link.from.node) {
         let message =
             format!("a link comes from `{}`, but there is no such node; remove the link or add the node", link.from);
         checker.wrong(&link.to.node, Some(&link.to.socket), message);

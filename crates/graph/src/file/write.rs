@@ -2,7 +2,10 @@
 
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
+use std::io;
 
+use serde::Serialize;
+use serde_json::ser::Formatter;
 use serde_json::{Map, Value as Plain};
 
 use super::read::{link_of_plain, parameter_key_of_plain};
@@ -30,7 +33,7 @@ pub fn to_json(document: &Document) -> String {
     }
     for (key, value) in &document.unknown {
         if !SECTIONS.contains(&key.as_str()) {
-            sections.push(format!("  {}: {value}", quoted(key)));
+            sections.push(format!("  {}: {}", quoted(key), plain_json(value)));
         }
     }
     format!("{{\n{}\n}}\n", sections.join(",\n"))
@@ -53,7 +56,7 @@ fn node_lines(document: &Document) -> Vec<String> {
         lines.extend(
             kept.iter()
                 .filter(|(id, _)| !document.nodes.contains_key(*id))
-                .map(|(id, raw)| (id.as_str(), raw.to_string())),
+                .map(|(id, raw)| (id.as_str(), plain_json(raw))),
         );
         lines.sort_by(|a, b| a.0.cmp(b.0));
     }
@@ -64,7 +67,7 @@ fn node_json(node: &Node) -> String {
     let mut fields = vec![format!("\"node\": {}", quoted(&node.node))];
     match (&node.label, node.unknown.get("label")) {
         (Some(label), _) => fields.push(format!("\"label\": {}", quoted(label))),
-        (None, Some(raw)) => fields.push(format!("\"label\": {raw}")),
+        (None, Some(raw)) => fields.push(format!("\"label\": {}", plain_json(raw))),
         (None, None) => {}
     }
     let mut values: Vec<(&str, String)> =
@@ -72,10 +75,10 @@ fn node_json(node: &Node) -> String {
     match node.unknown.get("values") {
         Some(Plain::Object(kept)) => {
             let others = kept.iter().filter(|(socket, _)| !node.values.contains_key(*socket));
-            values.extend(others.map(|(socket, raw)| (socket.as_str(), raw.to_string())));
+            values.extend(others.map(|(socket, raw)| (socket.as_str(), plain_json(raw))));
             values.sort_by(|a, b| a.0.cmp(b.0));
         }
-        Some(raw) if values.is_empty() => fields.push(format!("\"values\": {raw}")),
+        Some(raw) if values.is_empty() => fields.push(format!("\"values\": {}", plain_json(raw))),
         _ => {}
     }
     if !values.is_empty() {
@@ -90,7 +93,7 @@ fn node_json(node: &Node) -> String {
 fn push_unknown(fields: &mut Vec<String>, unknown: &Map<String, Plain>, known: &[&str]) {
     for (key, value) in unknown {
         if !known.contains(&key.as_str()) {
-            fields.push(format!("{}: {value}", quoted(key)));
+            fields.push(format!("{}: {}", quoted(key), plain_json(value)));
         }
     }
 }
@@ -109,7 +112,7 @@ fn link_lines(document: &Document) -> Vec<String> {
         }
         format!("{{{}}}", fields.join(", "))
     });
-    let others = kept.iter().filter(|raw| link_of_plain(raw).is_none()).map(Plain::to_string);
+    let others = kept.iter().filter(|raw| link_of_plain(raw).is_none()).map(plain_json);
     links.chain(others).collect()
 }
 
@@ -125,7 +128,7 @@ fn parameter_lines(document: &Document) -> Vec<String> {
         let extra = extras.get(&(parameter.name.clone(), parameter.socket.clone())).copied();
         parameter_json(parameter, extra)
     });
-    let others = kept.iter().filter(|raw| parameter_key_of_plain(raw).is_none()).map(Plain::to_string);
+    let others = kept.iter().filter(|raw| parameter_key_of_plain(raw).is_none()).map(plain_json);
     parameters.chain(others).collect()
 }
 
@@ -155,7 +158,7 @@ fn surface_json(document: &Document) -> Option<String> {
     let empty = Map::new();
     let kept = match document.unknown.get("surface") {
         Some(Plain::Object(kept)) => kept,
-        Some(raw) if surface == default => return Some(raw.to_string()),
+        Some(raw) if surface == default => return Some(plain_json(raw)),
         _ => &empty,
     };
     if surface == default && kept.is_empty() {
@@ -169,7 +172,7 @@ fn surface_json(document: &Document) -> Option<String> {
     let mut fields: Vec<String> = known
         .iter()
         .map(|(name, json, is_default)| match kept.get(*name) {
-            Some(raw) if *is_default => format!("\"{name}\": {raw}"),
+            Some(raw) if *is_default => format!("\"{name}\": {}", plain_json(raw)),
             _ => format!("\"{name}\": {json}"),
         })
         .collect();
@@ -183,7 +186,7 @@ fn layout_lines(document: &Document) -> Vec<String> {
     if let Some(Plain::Object(kept)) = document.unknown.get("layout") {
         let known: HashSet<&str> = document.layout.keys().map(String::as_str).collect();
         let others = kept.iter().filter(|(id, _)| !known.contains(id.as_str()));
-        lines.extend(others.map(|(id, raw)| (id.as_str(), raw.to_string())));
+        lines.extend(others.map(|(id, raw)| (id.as_str(), plain_json(raw))));
         lines.sort_by(|a, b| a.0.cmp(b.0));
     }
     lines.into_iter().map(|(id, json)| format!("{}: {json}", quoted(id))).collect()
@@ -219,6 +222,34 @@ fn image_json(image: &ImageRef) -> String {
     }
     out.push('}');
     out
+}
+
+/// A value that this version does not know, with the writer's own spacing.
+fn plain_json(value: &Plain) -> String {
+    let mut bytes = Vec::new();
+    let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Spaced);
+    // Writing to memory does not fail; without spaces it is the same value.
+    match value.serialize(&mut serializer) {
+        Ok(()) => String::from_utf8(bytes).unwrap_or_else(|_| value.to_string()),
+        Err(_) => value.to_string(),
+    }
+}
+
+/// Everything in one line, with a space after each `,` and `:`.
+struct Spaced;
+
+impl Formatter for Spaced {
+    fn begin_array_value<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        if first { Ok(()) } else { writer.write_all(b", ") }
+    }
+
+    fn begin_object_key<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        if first { Ok(()) } else { writer.write_all(b", ") }
+    }
+
+    fn begin_object_value<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b": ")
+    }
 }
 
 fn quoted(text: &str) -> String {
