@@ -38,9 +38,11 @@ fn irradiance_sh2(coefficients: array<vec4f, 9>, dir: vec3f) -> vec3f {
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for n_dot_v and along y for the perceptual roughness, so both ends of each range are texels, not extrapolated.
+/// along x for sqrt(n_dot_v) and along y for the perceptual roughness: both ends of each range are texels, and grazing
+/// angles, where the albedo changes within n_dot_v of about alpha, have the most of them.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let uv = (saturate(vec2f(n_dot_v, perceptual_roughness)) * (size - 1.0) + 0.5) / size;
+    let place = vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness));
+    let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }

@@ -27,19 +27,22 @@ pub fn emit(source: &str, item: &Item, rename: impl Fn(&str) -> Option<String>) 
     text
 }
 
-/// Leaves out of `///` lines what is said to the editor: lines that begin with `@` or with `- name:`. The label, help,
-/// equations and sources stay; the blank lines around what went are drawn together. Other lines stay as they are.
+/// Leaves out of `///` lines what is said to the editor: lines that begin with `@` or with `- name:`, and the indented
+/// ones that carry those on. The label, help, equations and sources stay; the blank lines around what went are drawn
+/// together. Other lines stay as they are.
 pub fn without_grammar(comment: &str) -> Cow<'_, str> {
     if !comment.lines().any(is_grammar) {
         return Cow::Borrowed(comment);
     }
     let mut kept: Vec<&str> = Vec::new();
-    let mut dropped = false;
+    let (mut dropped, mut in_entry) = (false, false);
     for line in comment.split_inclusive('\n') {
-        if is_grammar(line) {
+        if is_grammar(line) || (in_entry && line.trim_start().starts_with("///   ")) {
             dropped = true;
+            in_entry = true;
             continue;
         }
+        in_entry = false;
         let blank = line.trim() == "///";
         if dropped && blank && kept.last().is_none_or(|last| last.trim() == "///") {
             continue;
@@ -78,7 +81,7 @@ mod tests {
     use crate::slicer::slice;
 
     const SOURCE: &str = "/// Mix\n///\n/// a at t = 0.\n/// - no argument, a list\n/// @node math/mix  @also lerp\n\
-                          /// - a: first [0]\n/// - t: weight [0.5; 0..1]\n/// - return: the mix\n\
+                          /// - a: first,\n///   and more of it [0]\n/// - t: weight [0.5; 0..1]\n/// - return: the mix\n\
                           fn node_math_mix(a: T, T2: f32) -> T {\n    // keep\n    let d_ggx = d_ggx(a.T);\n    return mix(T(d_ggx), d_ggx);\n}\n";
 
     #[test]

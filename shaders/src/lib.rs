@@ -4,7 +4,7 @@
 //! lists and slices text. It does not parse WGSL (naga does, in the crates that need meaning).
 
 mod emit;
-mod slicer;
+pub mod slicer;
 mod token;
 
 pub use emit::{emit, without_grammar};

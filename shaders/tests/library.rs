@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use halfvector_shaders::{FILES, File, Item, ItemKind, SliceError, TokenKind, emit, generic_types, slice, tokens};
+use halfvector_shaders::{FILES, File, Item, ItemKind, SliceError, emit, generic_types, slice, tokens};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// An item and the file that it stands in.
@@ -15,14 +15,22 @@ struct Entry {
 
 /// Files with entry points are whole shaders; their names need not be unlike another's.
 fn is_entry(file: &File) -> bool {
-    file.path.starts_with("entry/")
+    let is_entry_point = |item: &Item| {
+        let code = &file.source[item.code_start..];
+        ["@vertex", "@fragment", "@compute"].iter().any(|stage| code.starts_with(stage))
+    };
+    items(file).iter().any(is_entry_point)
+}
+
+fn items(file: &File) -> Vec<Item> {
+    slice(file.source).unwrap_or_else(|e| panic!("{}: {e}", file.path))
 }
 
 /// Every item that can be linked, by name; the aliases `T` of generic nodes are left out, they are never linked.
 fn index() -> BTreeMap<String, Entry> {
     let mut index = BTreeMap::new();
     for file in FILES.iter().filter(|f| !is_entry(f)) {
-        for item in slice(file.source).unwrap_or_else(|e| panic!("{}: {e}", file.path)) {
+        for item in items(file) {
             if item.kind == ItemKind::Alias && item.name == "T" && generic_types(file.source).is_some() {
                 continue;
             }
@@ -36,7 +44,7 @@ fn index() -> BTreeMap<String, Entry> {
 
 /// The text of a file's items with everything that they reach; `T` becomes `generic`.
 fn linked(file: &File, generic: Option<&str>, index: &BTreeMap<String, Entry>) -> String {
-    let own = slice(file.source).unwrap_or_else(|e| panic!("{}: {e}", file.path));
+    let own = items(file);
     let is_t = |item: &Item| generic.is_some() && item.name == "T";
     let own: Vec<Item> = own.into_iter().filter(|item| !is_t(item)).collect();
     let rename = |name: &str| generic.filter(|_| name == "T").map(str::to_owned);
@@ -160,7 +168,7 @@ fn is_of_wgsl(name: &str) -> bool {
 #[test]
 fn no_name_hides_one_of_wgsls() {
     for file in FILES {
-        for item in slice(file.source).unwrap_or_else(|e| panic!("{}: {e}", file.path)) {
+        for item in items(file) {
             assert!(!is_of_wgsl(&item.name), "{}: `{}` is a name of WGSL's", file.path, item.name);
         }
         // Arguments, members and locals: `name :`, and what follows let, var or const.
@@ -180,7 +188,7 @@ fn no_name_hides_one_of_wgsls() {
 #[test]
 fn every_function_and_struct_says_what_it_is() {
     for file in FILES.iter().filter(|f| !is_entry(f)) {
-        for item in slice(file.source).unwrap_or_else(|e| panic!("{}: {e}", file.path)) {
+        for item in items(file) {
             let documented = item.start < item.code_start;
             let needed = matches!(item.kind, ItemKind::Fn | ItemKind::Struct);
             assert!(documented || !needed, "{}: no comment above `{}`", file.path, item.name);
@@ -192,7 +200,7 @@ fn every_function_and_struct_says_what_it_is() {
 fn nodes() -> Vec<(String, String, &'static File)> {
     let mut nodes = Vec::new();
     for file in FILES {
-        for item in slice(file.source).unwrap_or_else(|e| panic!("{}: {e}", file.path)) {
+        for item in items(file) {
             let comment = &file.source[item.start..item.code_start];
             for id in comment.lines().filter_map(|l| l.split_once("@node ").map(|(_, rest)| rest)) {
                 let id = id.split_whitespace().next().unwrap_or("").to_owned();
@@ -219,61 +227,9 @@ fn nodes_are_named_by_their_id_and_stand_in_their_folder() {
 #[test]
 fn a_generic_file_holds_one_function() {
     for file in FILES.iter().filter(|f| generic_types(f.source).is_some()) {
-        let items = slice(file.source).unwrap_or_else(|e| panic!("{}: {e}", file.path));
+        let items = items(file);
         let shape: Vec<(ItemKind, bool)> = items.iter().map(|i| (i.kind, i.name == "T")).collect();
         assert_eq!(shape, [(ItemKind::Alias, true), (ItemKind::Fn, false)], "{}", file.path);
-    }
-}
-
-#[test]
-fn implicit_derivatives_stand_in_uniform_control_flow() {
-    // Text is enough here: `textureSample` and friends, and what calls them, may stand in no nested block and after no
-    // `return`. Functions that take derivatives are found transitively.
-    const TAKES_DERIVATIVES: [&str; 12] = [
-        "textureSample",
-        "textureSampleBias",
-        "textureSampleCompare",
-        "dpdx",
-        "dpdy",
-        "fwidth",
-        "dpdxFine",
-        "dpdyFine",
-        "fwidthFine",
-        "dpdxCoarse",
-        "dpdyCoarse",
-        "fwidthCoarse",
-    ];
-    let index = index();
-    let mut taking: BTreeSet<&str> = TAKES_DERIVATIVES.into();
-    loop {
-        let found: Vec<&str> = index
-            .iter()
-            .filter(|(name, e)| {
-                !taking.contains(name.as_str()) && e.item.dependencies.iter().any(|d| taking.contains(d.as_str()))
-            })
-            .map(|(name, _)| name.as_str())
-            .collect();
-        if found.is_empty() {
-            break;
-        }
-        taking.extend(found);
-    }
-    for (name, Entry { file, item }) in &index {
-        let (mut depth, mut returned) = (0, false);
-        for token in tokens(&file.source[item.code_start..item.end]) {
-            let offset = item.code_start + token.start;
-            match token.text(&file.source[item.code_start..item.end]) {
-                "{" => depth += 1,
-                "}" => depth -= 1,
-                "return" if depth > 1 => returned = true,
-                word if token.kind == TokenKind::Identifier && taking.contains(word) => {
-                    let is_reference = item.references.iter().any(|r| r.start == offset);
-                    let uniform = depth == 1 && !returned;
-                    assert!(!is_reference || uniform, "{}: `{name}` takes derivatives under a branch", file.path);
-                }
-                _ => {}
-            }
-        }
     }
 }
 
