@@ -30,7 +30,7 @@ fn vertex_stage(checker: &mut Checker, id: &str) {
     }
     for input in &def.inputs {
         let is_free = checker.wiring.incoming(id, &input.name).is_none()
-            && checker.document.nodes[id].values.get(&input.name).is_none();
+            && !checker.document.nodes[id].values.contains_key(&input.name);
         if let (true, Default::Context(name)) = (is_free, &input.default)
             && let Some(message) = context(name).and_then(vertex_stage_lacks)
         {
