@@ -50,7 +50,8 @@ fn cos_sin_atan(y: f32, x: f32) -> vec2f {
 /// Normal mapping by rotation, exactly as the report gives it: with t the texel's direction,
 ///   ax = atan(t.y / t.z),  ay = atan(t.x / t.z),  az = atan(t.y / t.z),   n = Rz(az) Ry(ay) Rx(ax) N
 /// about the axes of the space that N is in (world). Only cosine and sine of the angles are needed, and those are
-/// algebraic. It is kept to be measured: it needs no tangents, and even on N = +Z it turns y the wrong way.
+/// algebraic. It is kept to be measured: it needs no tangents. On N = +X it is near the truth (Rz is the turn that lifts
+/// that normal); on +Z a tilt in y becomes a tilt of twice itself the other way.
 fn normal_rotation_report(n_tangent: vec3f, normal: vec3f) -> vec3f {
     let n = normalize_or(normal, vec3f(0.0, 0.0, 1.0));
     let x = cos_sin_atan(n_tangent.y, n_tangent.z);
@@ -66,7 +67,8 @@ fn normal_rotation_report(n_tangent: vec3f, normal: vec3f) -> vec3f {
 ///   (cos ax sin ay, sin ax, cos ax cos ay)
 /// whose x / z = t.x / t.z is the texel's own and whose y / z = (t.y / t.z) / cos ay is not quite, since the second
 /// rotation shortens what the first one did. ax = atan(t.y / |t.z|) and ay = atan2(t.x, t.z) keep the quadrant of a texel
-/// that points below the surface. The axes are still those of N's space, so away from +Z the tilt goes astray.
+/// that points below the surface. On +Z the error is at most 0.2 degrees for a tilt of 15, 1.7 for 30, 5.9 for 45. The axes
+/// are still those of N's space, so away from +Z the tilt goes astray.
 fn normal_rotation_fixed(n_tangent: vec3f, normal: vec3f) -> vec3f {
     let n = normalize_or(normal, vec3f(0.0, 0.0, 1.0));
     let x = cos_sin_atan2(n_tangent.y, abs(n_tangent.z));

@@ -1,5 +1,5 @@
 //! Frames under transforms: the matrix that carries normals, and what a mirror does to handedness.
-//! Does not interpolate and does not build tangents ([`crate::tangents`] does).
+//! Does not interpolate and does not build tangents ([`crate::tangents()`] does).
 //!
 //! A matrix is three columns. Directions within the surface, tangents among them, go by the matrix itself; normals go by
 //! [`normal_from_object`]; the handedness w of a tangent is multiplied by [`handedness`].

@@ -120,7 +120,7 @@ fn footprint(n: usize, i: usize) -> Footprint {
     let m = n / 2;
     if n == 1 {
         Footprint { first: 0, count: 1, weights: [1.0, 0.0, 0.0] }
-    } else if n % 2 == 0 {
+    } else if n.is_multiple_of(2) {
         Footprint { first: 2 * i, count: 2, weights: [0.5, 0.5, 0.0] }
     } else {
         let part = |p: usize| p as f32 / n as f32;

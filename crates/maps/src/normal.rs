@@ -76,8 +76,8 @@ fn cos_sin_atan<R: Real>(y: R, x: R) -> [R; 2] {
 /// ```
 ///
 /// about the axes of the space that N is in (world). Only cosine and sine of the angles are needed, and those are
-/// algebraic. It is kept to be measured: it needs no tangents, and even on N = +Z it turns y the wrong way. Mean angle
-/// error over tilts of 0 to 85 degrees: see the table in this crate's README.
+/// algebraic. It is kept to be measured: it needs no tangents. On N = +X it is near the truth (Rz is the turn that lifts
+/// that normal); on +Z a tilt in y becomes a tilt of twice itself the other way. The README has the table.
 pub fn normal_rotation_report<R: Real>(n_tangent: [R; 3], normal: [R; 3]) -> [R; 3] {
     let n = normalize_or(normal, plus_z());
     let x = cos_sin_atan(n_tangent[1], n_tangent[2]);
@@ -97,7 +97,8 @@ pub fn normal_rotation_report<R: Real>(n_tangent: [R; 3], normal: [R; 3]) -> [R;
 ///
 /// whose x / z = t.x / t.z is the texel's own and whose y / z = (t.y / t.z) / cos ay is not quite, since the second
 /// rotation shortens what the first one did. ax = atan(t.y / |t.z|) and ay = atan2(t.x, t.z) keep the quadrant of a texel
-/// that points below the surface. The axes are still those of N's space, so away from +Z the tilt goes astray.
+/// that points below the surface. On +Z the error is at most 0.2 degrees for a tilt of 15, 1.7 for 30, 5.9 for 45. The axes
+/// are still those of N's space, so away from +Z the tilt goes astray: the README has the table.
 pub fn normal_rotation_fixed<R: Real>(n_tangent: [R; 3], normal: [R; 3]) -> [R; 3] {
     let n = normalize_or(normal, plus_z());
     let x = cos_sin_atan2(n_tangent[1], n_tangent[2].abs());

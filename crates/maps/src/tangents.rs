@@ -131,24 +131,14 @@ fn corner_tangents(
         p.iter().chain(n).chain(uv).all(|x| x.is_finite())
     };
     let triangles: Vec<[u32; 3]> = indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
-    let faces: Vec<usize> = (0..triangles.len())
-        .filter(|&face| {
-            triangles[face].iter().all(|&vertex| vertex_is_sound(vertex)) && has_uv_area(triangles[face], uvs)
-        })
-        .collect();
+    let faces: Vec<usize> =
+        (0..triangles.len()).filter(|&face| triangles[face].iter().all(|&vertex| vertex_is_sound(vertex))).collect();
     let mut mesh = Mesh { positions, normals, uvs, triangles, faces, corners: vec![None; indices.len()] };
     // The error type has no values: it cannot fail.
     match generate_tangents(&mut mesh) {
         Ok(()) => mesh.corners,
         Err(_) => vec![None; indices.len()],
     }
-}
-
-/// Whether the triangle spans an area of the texture; the products are exact in f64.
-fn has_uv_area(triangle: [u32; 3], uvs: &[[f32; 2]]) -> bool {
-    let [a, b, c] = triangle.map(|vertex| uvs[vertex as usize].map(f64::from));
-    let det = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    det.abs() > f64::from(f32::MIN_POSITIVE)
 }
 
 struct Mesh<'a> {

@@ -46,7 +46,7 @@ fn overall(errors: &[(f64, f64)]) -> (f64, f64) {
     (errors.iter().map(|e| e.0).sum::<f64>() / errors.len() as f64, errors.iter().map(|e| e.1).fold(0.0, f64::max))
 }
 
-/// The table of the README. `cargo test -p halfvector-maps angle_error -- --nocapture` prints it.
+/// The table, which the README carries. `cargo test -p halfvector-maps angle_error -- --nocapture` prints it.
 #[test]
 fn table_of_methods() {
     println!("degrees between result and truth, mean / max over all azimuths; last column over tilts 0, 5 .. 85");
@@ -57,7 +57,12 @@ fn table_of_methods() {
             let errors = errors(method, normal, tangent);
             let cell = |(mean, max): (f64, f64)| format!("{mean:.2} / {max:.2}");
             let cells: Vec<String> = [1, 3, 6, 9, 12, 17].map(|i| cell(errors[i])).to_vec();
-            println!("| {name} | `{method_name}` | {} | {} |", cells.join(" | "), cell(overall(&errors)));
+            let row = format!("| {name} | `{method_name}` | {} | {} |", cells.join(" | "), cell(overall(&errors)));
+            println!("{row}");
+            assert!(
+                include_str!("../../README.md").contains(&row),
+                "the README has another row for {method_name} on {name}"
+            );
         }
     }
 }

@@ -239,6 +239,20 @@ fn cut_files_give_errors() {
     }
 }
 
+/// A TIFF file whose SampleFormat has no values makes tiff 0.10.3 index an empty list: it stays that file's error.
+#[test]
+fn a_panic_of_a_decoder_is_an_error() {
+    let mut bytes = file(ImageFormat::Tiff, ExtendedColorType::Rgb8);
+    let directory = u32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]]) as usize;
+    let entries = usize::from(u16::from_le_bytes([bytes[directory], bytes[directory + 1]]));
+    let entry = (0..entries)
+        .map(|i| directory + 2 + 12 * i)
+        .find(|&at| bytes[at..at + 2] == 339_u16.to_le_bytes())
+        .expect("the encoder writes SampleFormat");
+    bytes[entry + 4..entry + 8].fill(0);
+    assert!(matches!(decode(&bytes, Limits::default()), Err(DecodeError::Damaged { format: "TIFF", .. })));
+}
+
 /// What is no texture is named for what it is.
 #[test]
 fn other_files_are_named() {

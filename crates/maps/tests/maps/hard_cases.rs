@@ -318,6 +318,9 @@ in_f32_and_f64! {
         for p in [[0.0; 3], n, [f64::NAN; 3]] {
             assert_near(normal_from_height::<R>(v(p), v(p), v(n), r(1.0), r(2.0)), n, 1e-6);
         }
+        let tiny = |x: f64| r::<R>(1e-17 * x);
+        let (px, py) = ([tiny(1.0), tiny(0.0), tiny(0.0)], [tiny(0.0), tiny(1.0), tiny(0.0)]);
+        assert_near(normal_from_height(px, py, v(n), tiny(1.0), tiny(2.0)), n, 1e-6);
         assert_near(displaced::<R>(v([1.0, 2.0, 3.0]), v(n), r(0.5)), [1.0, 2.3, 3.4], 1e-6);
     }
 }
@@ -325,9 +328,9 @@ in_f32_and_f64! {
 /// Row "degenerate UV": all UVs equal is 0/0; the vertices get a tangent of their normal, and all the same.
 #[test]
 fn degenerate_uv() {
-    let normal = [0.0_f32, 0.6, 0.8];
+    let normal = [0.6_f32, 0.0, 0.8];
     for uv in [[0.0, 0.0], [0.25, 0.75]] {
-        let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.8, -0.6]];
+        let positions = [[0.0, 0.0, 0.0], [0.8, 0.0, -0.6], [0.0, 1.0, 0.0]];
         let got = tangents(&positions, &[normal; 3], &[uv; 3], &[0, 1, 2]);
         let [x, y, z] = tangent_from_normal(normal);
         assert_eq!(got, [[x, y, z, 1.0]; 3]);
