@@ -1,5 +1,59 @@
-//! A material document becomes WGSL: named passes, reflection, export targets.
-mod layout;
-pub mod reflection;
+//! A material document becomes WGSL: named passes (their order stands in `pipeline`), reflection, export targets.
+//!
+//! Deterministic: the same document, needs and library give the same bytes. It opens no files and no device, and reads no
+//! node positions.
 
+mod emit;
+mod error;
+mod ir;
+mod layout;
+mod link;
+mod names;
+mod passes;
+mod pipeline;
+pub mod reflection;
+pub mod target;
+mod validate;
+
+#[cfg(test)]
+mod tests;
+
+pub use emit::text::{Origin, Segment};
+pub use error::CodegenError;
 pub use layout::PackError;
+pub use passes::lower::input_value;
+pub use pipeline::{material, shader};
+pub use validate::{Place, Valid, ValidationError, validate};
+
+use reflection::Reflection;
+
+/// Which numbers of a document stay open in the shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Fold {
+    /// All: changing a number is a change of uniforms, not of the shader. For editing.
+    Live,
+    /// The exposed parameters only; the others are folded. For taking home.
+    Export,
+}
+
+/// A shader and what is to be known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shader {
+    /// The text. Of a whole shader the entry points are `vs_main` and `fs_main`.
+    pub wgsl: String,
+    /// What it wants bound and fed.
+    pub reflection: Reflection,
+    /// Where each byte of the text comes from: without gaps, in order.
+    pub segments: Vec<Segment>,
+    /// What was left out, and why.
+    pub dropped: Vec<Dropped>,
+}
+
+/// Something that a shader does without.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Dropped {
+    /// What it is.
+    pub what: String,
+    /// Why it is not needed here, or what that changes.
+    pub why: String,
+}

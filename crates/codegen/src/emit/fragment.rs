@@ -1,0 +1,319 @@
+//! The fragment stage: the material's nodes, then the lobes as a chain of one-line calls in the order of their layers,
+//! once per kind of light and once for the environment, then what is returned.
+//!
+//! All samples with implicit derivatives are taken by the nodes, before the first branch.
+
+use halfvector_graph::document::AlphaMode;
+use halfvector_graph::needs::{Needs, ShaderOutput, ToneMap};
+
+use crate::CodegenError;
+use crate::emit::expression::{Entrance, EnvironmentTexture, Names, Uses, ViewMember, Writer, lights_member};
+use crate::emit::text::Text;
+use crate::emit::value::number;
+use crate::ir::Program;
+use crate::link::Index;
+use crate::names::Namer;
+use crate::passes::specialise::Plan;
+use crate::reflection::LightKind;
+
+/// What the fragment stage is written from.
+pub(crate) struct FragmentParts<'p, 'a> {
+    pub(crate) program: &'p Program<'a>,
+    pub(crate) plan: &'p Plan,
+    pub(crate) needs: &'p Needs,
+    pub(crate) alpha_cutoff: f32,
+    pub(crate) index: &'p Index,
+    pub(crate) names: &'p Names,
+}
+
+/// Writes `fs_main`.
+pub(crate) fn fragment(parts: &FragmentParts<'_, '_>) -> Result<(Text, Uses), CodegenError> {
+    let FragmentParts { program, plan, index, names, .. } = parts;
+    let mut writer = Writer::new(program, index, names, Entrance::Fragment, plan.height);
+    let mut namer = Namer::new(index);
+    writer.expressions(&program.fragment, &mut namer)?;
+    let mut shading = Shading { parts, writer, lines: Text::default(), first: true };
+    shading.discard();
+    if plan.is_lit() {
+        shading.setup()?;
+        shading.lights()?;
+        shading.environment()?;
+    }
+    shading.finish()?;
+    let Shading { mut writer, lines, .. } = shading;
+
+    let mut before = Text::default();
+    if writer.uses.contexts.contains("world_normal") {
+        let (safe, normal) = (writer.library("normalize_or")?, writer.member("world_normal"));
+        before.line(&format!("    let world_normal = {safe}({normal}, vec3f(0.0, 0.0, 1.0));"));
+    }
+    if writer.uses.contexts.contains("view_dir") {
+        let (camera, position) = (writer.view(ViewMember::CameraPosition), writer.member("world_position"));
+        before.line(&format!("    let view_dir = normalize({camera} - {position});"));
+    }
+    let mut arguments = Vec::new();
+    if !writer.uses.members.is_empty() {
+        arguments.push("in: Varyings");
+    }
+    if plan.double_sided && plan.is_lit() {
+        arguments.push("@builtin(front_facing) front_facing: bool");
+    }
+    let mut text = Text::default();
+    text.line("@fragment");
+    text.line(&format!("fn fs_main({}) -> @location(0) vec4f {{", arguments.join(", ")));
+    text.append(&before);
+    text.append(&writer.body);
+    text.append(&lines);
+    text.line("}");
+    Ok((text, writer.uses))
+}
+
+/// The lines after the nodes.
+struct Shading<'s, 'p, 'a> {
+    parts: &'s FragmentParts<'p, 'a>,
+    writer: Writer<'p, 'a>,
+    lines: Text,
+    /// Whether nothing has been added to `radiance` yet.
+    first: bool,
+}
+
+impl Shading<'_, '_, '_> {
+    fn line(&mut self, line: &str) {
+        self.lines.line(&format!("    {line}"));
+    }
+
+    fn root(&self, name: &str, otherwise: &str) -> String {
+        self.parts
+            .program
+            .fragment
+            .root(name)
+            .map_or_else(|| otherwise.to_owned(), |id| self.writer.atom(id).to_owned())
+    }
+
+    fn add(&mut self, term: &str) {
+        if std::mem::take(&mut self.first) {
+            self.line(&format!("var radiance = {term};"));
+        } else {
+            self.line(&format!("radiance += {term};"));
+        }
+    }
+
+    fn discard(&mut self) {
+        if self.parts.plan.alpha_mode == AlphaMode::Mask {
+            let opacity = self.root("opacity", "1.0");
+            let cutoff = number(self.parts.alpha_cutoff);
+            self.line(&format!("if {opacity} < {cutoff} {{"));
+            self.line("    discard;");
+            self.line("}");
+        }
+    }
+
+    /// The frame, the lobes' parameters, and what scales them.
+    fn setup(&mut self) -> Result<(), CodegenError> {
+        let plan = self.parts.plan;
+        if self.parts.program.fragment.root("normal").is_none() {
+            self.writer.context("world_normal");
+        }
+        let mut normal = self.root("normal", "world_normal");
+        if plan.double_sided {
+            self.line(&format!("let normal = select(-{normal}, {normal}, front_facing);"));
+            normal = "normal".into();
+        }
+        let frame = self.writer.library("frame_from_normal")?;
+        if plan.looks_at_view {
+            let view_dir = self.writer.context("view_dir");
+            self.line(&format!("let frame = {frame}({normal}, {view_dir});"));
+        } else {
+            self.line(&format!("let frame = {frame}({normal}, {normal}); // no lobe looks at the viewer"));
+        }
+        let roughness = self.root("perceptual_roughness", "0.5");
+        if plan.diffuse {
+            let (diffuse, color) = (self.writer.library("Diffuse")?, self.root("diffuse_color", "vec3f(0.5)"));
+            self.line(&format!("let diffuse = {diffuse}({color}, {roughness});"));
+        }
+        if plan.specular {
+            let (specular, alpha) =
+                (self.writer.library("Specular")?, self.writer.library("alpha_from_perceptual_roughness")?);
+            let (f0, f90) = (self.root("f0", "vec3f(0.04)"), self.root("f90", "vec3f(1.0)"));
+            let roughness = if plan.lights.is_empty() {
+                roughness.clone()
+            } else {
+                format!("max({roughness}, {})", self.writer.library("PUNCTUAL_ROUGHNESS_FLOOR")?)
+            };
+            self.line(&format!("let specular = {specular}({f0}, {f90}, {alpha}({roughness}));"));
+        }
+        if plan.specular && (plan.compensation || plan.environment.is_some()) {
+            let lookup = if self.parts.needs.methods.is("dfg", "karis") {
+                format!("{}(frame.n_dot_v, {roughness})", self.writer.library("dfg_karis")?)
+            } else {
+                let table = self.writer.environment(EnvironmentTexture::Dfg);
+                format!("{}({table}, frame.n_dot_v, {roughness})", self.writer.library("dfg_from_table")?)
+            };
+            self.line(&format!("let dfg = {lookup};"));
+        }
+        if plan.compensation {
+            let factor = self.writer.library("energy_compensation")?;
+            self.line(&format!("let compensation = {factor}(specular.f0, dfg);"));
+        }
+        Ok(())
+    }
+
+    fn lights(&mut self) -> Result<(), CodegenError> {
+        let plan = self.parts.plan;
+        for &(kind, count) in &plan.lights {
+            self.writer.uses.lights = true;
+            let sample = self.writer.library(match kind {
+                LightKind::Directional => "directional_light_sample",
+                LightKind::Point => "point_light_sample",
+                LightKind::Spot => "spot_light_sample",
+            })?;
+            let member = lights_member(kind);
+            // A directional light is the same everywhere: for it alone no position is interpolated.
+            let position = if kind == LightKind::Directional && !plan.looks_at_view {
+                "vec3f(0.0)".to_owned()
+            } else {
+                self.writer.member("world_position")
+            };
+            if count == 1 {
+                let light = format!("{member}_light");
+                self.line(&format!("let {light} = {sample}(lights.{member}, {position});"));
+                let term = self.light_term(&light)?;
+                self.add(&term);
+            } else {
+                if std::mem::take(&mut self.first) {
+                    self.line("var radiance = vec3f(0.0);");
+                }
+                self.line(&format!("for (var i = 0u; i < {count}u; i++) {{"));
+                self.line(&format!("    let light = {sample}(lights.{member}[i], {position});"));
+                let term = self.light_term("light")?;
+                self.line(&format!("    radiance += {term};"));
+                self.line("}");
+            }
+        }
+        Ok(())
+    }
+
+    /// What one light adds.
+    fn light_term(&mut self, light: &str) -> Result<String, CodegenError> {
+        let plan = self.parts.plan;
+        let mut lobes = Vec::new();
+        if plan.diffuse {
+            lobes.push(format!("{}(frame, {light}.dir, diffuse)", self.writer.library("diffuse_eval")?));
+        }
+        if plan.specular {
+            let compensated = if plan.compensation { " * compensation" } else { "" };
+            lobes.push(format!("{}(frame, {light}.dir, specular){compensated}", self.writer.library("specular_eval")?));
+        }
+        Ok(format!("{} * {light}.illuminance", sum(&lobes)))
+    }
+
+    fn environment(&mut self) -> Result<(), CodegenError> {
+        let plan = self.parts.plan;
+        let Some(rotated) = plan.environment else { return Ok(()) };
+        let methods = &self.parts.needs.methods;
+        let roughness = self.root("perceptual_roughness", "0.5");
+        let last_level = methods.is("irradiance", "last_level");
+        let encode =
+            if methods.is("encode", "report") { Some(self.writer.library("gamma_from_linear")?) } else { None };
+        let encoded = |sample: String| encode.map_or_else(|| sample.clone(), |encode| format!("{encode}({sample})"));
+        let lod = self.writer.library(methods.get("level_map").function.unwrap_or("lod_linear"))?;
+        let mirror = plan.specular || (plan.diffuse && last_level);
+        if mirror {
+            let direction = self.turned("reflect(-frame.view_dir, frame.normal)", rotated)?;
+            self.line(&format!("let reflection_dir = {direction};"));
+        }
+        let mut lobes = Vec::new();
+        if plan.diffuse {
+            let irradiance = match methods.get("irradiance").name {
+                "sh2" => {
+                    let direction = self.turned("frame.normal", rotated)?;
+                    let coefficients = self.writer.view(ViewMember::IrradianceSh);
+                    format!("{}({coefficients}, {direction})", self.writer.library("irradiance_sh2")?)
+                }
+                "last_level" => {
+                    let levels = self.writer.view(ViewMember::EnvironmentLevels);
+                    let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
+                    let sample = self.writer.library("environment_sample")?;
+                    encoded(format!("{sample}({cube}, reflection_dir, {lod}(1.0, {levels}))"))
+                }
+                _ => {
+                    let direction = self.turned("frame.normal", rotated)?;
+                    let cube = self.writer.environment(EnvironmentTexture::IrradianceOverPi);
+                    let sample = self.writer.library("environment_sample")?;
+                    encoded(format!("{sample}({cube}, {direction}, 0.0)"))
+                }
+            };
+            self.line(&format!("let irradiance = {irradiance};"));
+            lobes.push(format!("{}(diffuse, irradiance)", self.writer.library("diffuse_environment")?));
+        }
+        if plan.specular {
+            let levels = self.writer.view(ViewMember::EnvironmentLevels);
+            let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
+            let sample = self.writer.library("environment_sample")?;
+            let reflection = encoded(format!("{sample}({cube}, reflection_dir, {lod}({roughness}, {levels}))"));
+            self.line(&format!("let reflection = {reflection};"));
+            let compensated = if plan.compensation { " * compensation" } else { "" };
+            let lobe = self.writer.library("specular_environment")?;
+            lobes.push(format!("{lobe}(specular, reflection, dfg){compensated}"));
+        }
+        let occlusion = if plan.occlusion { format!(" * {}", self.root("occlusion", "1.0")) } else { String::new() };
+        let term = if plan.occlusion { format!("{}{occlusion}", sum(&lobes)) } else { lobes.join(" + ") };
+        self.add(&term);
+        Ok(())
+    }
+
+    /// A world direction as a direction of the environment.
+    fn turned(&mut self, direction: &str, rotated: bool) -> Result<String, CodegenError> {
+        if !rotated {
+            return Ok(direction.to_owned());
+        }
+        let rotation = self.writer.view(ViewMember::EnvironmentRotation);
+        Ok(format!("{}({direction}, {rotation})", self.writer.library("rotate_about_y")?))
+    }
+
+    /// Emission, opacity, and the display's coding.
+    fn finish(&mut self) -> Result<(), CodegenError> {
+        let plan = self.parts.plan;
+        if plan.emission {
+            let emission = self.root("emission", "vec3f(0.0)");
+            self.add(&emission);
+        }
+        if self.first {
+            self.add("vec3f(0.0)");
+        }
+        let mut color = "radiance".to_owned();
+        if let ShaderOutput::Display(tone_map) = self.parts.needs.output {
+            let exposure = self.writer.view(ViewMember::Exposure);
+            let tone_map = self.writer.library(match tone_map {
+                ToneMap::None => "tone_map_none",
+                ToneMap::Reinhard => "tone_map_reinhard",
+                ToneMap::Aces => "tone_map_aces",
+                ToneMap::Agx => "tone_map_agx",
+                ToneMap::PbrNeutral => "tone_map_pbr_neutral",
+            })?;
+            color = format!("{tone_map}(radiance * {exposure})");
+            // The report's reflection is coded already.
+            if !self.parts.needs.methods.is("encode", "report") {
+                color = format!("{}({color})", self.writer.library("srgb_from_linear")?);
+            }
+            self.line(&format!("let display = {color};"));
+            color = "display".into();
+        }
+        if plan.alpha_mode == AlphaMode::Blend {
+            let opacity = self.root("opacity", "1.0");
+            self.line(&format!("let opacity = saturate({opacity});"));
+            self.line(&format!("return vec4f({color} * opacity, opacity);"));
+        } else {
+            self.line(&format!("return vec4f({color}, 1.0);"));
+        }
+        Ok(())
+    }
+}
+
+/// Lobes added, in brackets when there are several.
+fn sum(lobes: &[String]) -> String {
+    match lobes {
+        [one] => one.clone(),
+        several => format!("({})", several.join(" + ")),
+    }
+}

@@ -1,0 +1,102 @@
+//! The comment at the top of a shader: what it is, what it serves, what was left out and why.
+
+use halfvector_graph::document::Document;
+use halfvector_graph::method::TERMS;
+use halfvector_graph::needs::{Needs, ShaderOutput};
+
+use crate::emit::text::Text;
+use crate::names::comment;
+use crate::passes::specialise::Plan;
+use crate::reflection::LightKind;
+
+/// Widest line of the header.
+const WIDTH: usize = 118;
+
+pub(crate) fn header(document: &Document, plan: &Plan, needs: &Needs, text: &mut Text) {
+    paragraph("", &title(document), text);
+    paragraph("serves: ", &serves(plan, needs), text);
+    if plan.is_lit() {
+        paragraph("methods: ", &methods(plan, needs), text);
+    }
+    for dropped in &plan.dropped {
+        paragraph("left out: ", &format!("{}: {}", dropped.what, dropped.why), text);
+    }
+    text.line("");
+}
+
+pub(crate) fn material_header(document: &Document, text: &mut Text) {
+    paragraph("", &title(document), text);
+    paragraph("serves: ", "your own lights: `material` returns the surface, nothing is shaded here", text);
+    text.line("");
+}
+
+fn title(document: &Document) -> String {
+    let name = comment(&document.name);
+    format!("{}, made by Halfvector", if name.is_empty() { "A material" } else { &name })
+}
+
+fn serves(plan: &Plan, needs: &Needs) -> String {
+    let mut parts: Vec<String> = plan
+        .lights
+        .iter()
+        .map(|(kind, count)| {
+            let kind = match kind {
+                LightKind::Directional => "directional",
+                LightKind::Point => "point",
+                LightKind::Spot => "spot",
+            };
+            format!("{count} {kind} light{}", if *count == 1 { "" } else { "s" })
+        })
+        .collect();
+    match plan.environment {
+        Some(true) => parts.push("an environment, turned about +Y".into()),
+        Some(false) => parts.push("an environment".into()),
+        None => {}
+    }
+    if parts.is_empty() {
+        parts.push("no light".into());
+    }
+    let output = match needs.output {
+        ShaderOutput::Radiance => "returns linear radiance, Rec. 709".to_owned(),
+        ShaderOutput::Display(tone_map) => format!("returns display values through the tone map `{}`", tone_map.name()),
+    };
+    format!("{}; {output}", parts.join(", "))
+}
+
+/// The methods that this shader uses; the terms that it has no part of are left out.
+fn methods(plan: &Plan, needs: &Needs) -> String {
+    let environment = plan.environment.is_some();
+    let used = |term: &str| match term {
+        "d" | "v" | "fresnel" => plan.specular && !plan.lights.is_empty(),
+        "diffuse" => plan.diffuse && !plan.lights.is_empty(),
+        "compensation" => plan.specular && plan.compensation,
+        "dfg" => plan.specular && (plan.compensation || environment),
+        "level_map" | "prefilter" => plan.specular && environment,
+        "irradiance" => plan.diffuse && environment,
+        "encode" => environment && needs.methods.is("encode", "report"),
+        "height_normals" => plan.height,
+        _ => false,
+    };
+    let chosen = TERMS.iter().filter(|term| used(term.name));
+    chosen.map(|term| format!("{} = {}", term.name, needs.methods.get(term.name).name)).collect::<Vec<_>>().join(", ")
+}
+
+/// A paragraph of comment lines, broken between words.
+fn paragraph(lead: &str, content: &str, text: &mut Text) {
+    let mut line = format!("// {lead}");
+    let indent = format!("//   {}", if lead.is_empty() { "" } else { "  " });
+    let mut has_word = false;
+    for word in content.split_whitespace() {
+        if has_word && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            text.line(line.trim_end());
+            line = indent.clone();
+            has_word = false;
+        }
+        if has_word {
+            line.push(' ');
+        }
+        line.push_str(word);
+        has_word = true;
+    }
+    text.line(line.trim_end());
+}

@@ -1,0 +1,100 @@
+//! Emission: a program and its plan as WGSL text, with reflection and the table of what comes from where.
+
+pub(crate) mod expression;
+mod fragment;
+mod header;
+mod interface;
+mod material;
+pub(crate) mod text;
+mod value;
+mod vertex;
+
+use std::collections::BTreeMap;
+
+use halfvector_graph::document::Document;
+use halfvector_graph::method::Methods;
+use halfvector_graph::needs::Needs;
+
+use crate::emit::expression::{Names, Uses};
+use crate::emit::fragment::FragmentParts;
+use crate::emit::interface::Interface;
+use crate::emit::text::{Origin, Text};
+use crate::ir::Program;
+use crate::link::{self, Index};
+use crate::passes::specialise::Plan;
+use crate::{CodegenError, Shader};
+
+/// The whole shader: `vs_main` and `fs_main`.
+pub(crate) fn shader(
+    program: &Program<'_>,
+    plan: Plan,
+    document: &Document,
+    needs: &Needs,
+    index: &Index,
+    names: &Names,
+) -> Result<Shader, CodegenError> {
+    let alpha_cutoff = document.surface.alpha_cutoff;
+    let parts = FragmentParts { program, plan: &plan, needs, alpha_cutoff, index, names };
+    let (fragment, fragment_uses) = fragment::fragment(&parts)?;
+    let (vertex, vertex_uses) = vertex::vertex(program, &plan, index, names, &fragment_uses.members)?;
+    let interface = Interface { program, document, names, vertex: &vertex_uses, fragment: &fragment_uses };
+    let reflection = interface.reflection(&plan);
+
+    let mut text = Text::default();
+    header::header(document, &plan, needs, &mut text);
+    interface::declarations(&reflection, &mut text);
+    text.line("");
+    interface::stage_structs(&reflection, &fragment_uses, &mut text);
+    text.line("");
+    text.append(&vertex);
+    text.line("");
+    text.append(&fragment);
+    library(index, &[&vertex_uses, &fragment_uses], &needs.methods, &mut text);
+    Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: plan.dropped })
+}
+
+/// The material alone: `material(context) -> Surface`.
+pub(crate) fn material(
+    program: &Program<'_>,
+    document: &Document,
+    methods: &Methods,
+    index: &Index,
+    names: &Names,
+) -> Result<Shader, CodegenError> {
+    let (body, uses) = material::material(program, index, names)?;
+    let none = Uses::default();
+    let interface = Interface { program, document, names, vertex: &none, fragment: &uses };
+    let reflection = interface.material_reflection();
+
+    let mut text = Text::default();
+    header::material_header(document, &mut text);
+    interface::declarations(&reflection, &mut text);
+    if !uses.contexts.is_empty() {
+        text.line("struct Context {");
+        for context in halfvector_graph::context::CONTEXTS.iter().filter(|c| uses.contexts.contains(c.name)) {
+            text.line(&format!("    // {}", context.help));
+            text.line(&format!("    {}: {},", context.name, context.ty.wgsl()));
+        }
+        text.line("}");
+    }
+    text.line("");
+    text.append(&body);
+    library(index, &[&uses], methods, &mut text);
+    Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: Vec::new() })
+}
+
+/// The library's items that the stages reach, by file.
+fn library(index: &Index, uses: &[&Uses], methods: &Methods, text: &mut Text) {
+    let exchanged: BTreeMap<&str, &str> = link::exchanged(methods);
+    let roots = uses.iter().flat_map(|u| u.functions.iter().copied()).collect();
+    let mut file = "";
+    for instance in index.reach(&roots, &exchanged) {
+        let item = index.text(instance, &exchanged);
+        let origin = Origin::Library(item.path.to_owned());
+        if item.path != file {
+            file = item.path;
+            text.push(origin.clone(), &format!("\n// ---- {file}\n"));
+        }
+        text.push(origin, &format!("\n{}\n", item.text));
+    }
+}

@@ -1,0 +1,289 @@
+//! The linker: which items of the library a shader reaches, and their text in it. Items are whole; names are exchanged
+//! only for generic nodes (`T`, and a suffix) and for the methods of a term.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::{Arc, Mutex, OnceLock};
+
+use halfvector_graph::method::Methods;
+use halfvector_graph::value::Type;
+use halfvector_shaders::{Item, ItemKind, SliceError, TokenKind, emit, generic_types, slice, tokens};
+
+use crate::passes::eval::{self, Shape};
+
+/// Functions of the vertex stage that entry points call; the other files of `entry/` are whole shaders.
+const TRANSFORM_FILE: &str = "entry/transform.wgsl";
+
+/// Terms whose methods are functions of one signature: the linker exchanges the names. The other terms are chosen where
+/// the shading is put together.
+const EXCHANGED_TERMS: [&str; 4] = ["d", "v", "fresnel", "diffuse"];
+
+/// The items of a library by name, and what was found out about them.
+pub(crate) struct Index {
+    files: Vec<SourceFile>,
+    items: Vec<IndexItem>,
+    by_name: HashMap<String, usize>,
+    compiled: Mutex<HashMap<Instance, Option<Arc<Compiled>>>>,
+}
+
+struct SourceFile {
+    path: &'static str,
+    source: &'static str,
+    generic: bool,
+}
+
+struct IndexItem {
+    file: usize,
+    item: Item,
+    inline: Option<Inline>,
+}
+
+/// An item, with what `T` is when its file is generic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct Instance {
+    item: usize,
+    generic: Option<Type>,
+}
+
+/// The expression of a function that is nothing but one built-in expression.
+#[derive(Clone, Debug)]
+pub(crate) struct Inline {
+    pieces: Vec<Piece>,
+}
+
+#[derive(Clone, Debug)]
+enum Piece {
+    Text(String),
+    Parameter(usize),
+    Generic,
+}
+
+/// A function that naga has read, for folding.
+pub(crate) struct Compiled {
+    module: naga::Module,
+    function: naga::Handle<naga::Function>,
+    pub(crate) shape: Shape,
+    /// Member names of the returned struct; empty for a plain value.
+    pub(crate) members: Vec<String>,
+}
+
+impl Compiled {
+    pub(crate) fn evaluate(&self, arguments: &[eval::Number]) -> Option<eval::Value> {
+        eval::evaluate(&self.module, &self.module.functions[self.function], arguments)
+    }
+}
+
+/// An item in the shader.
+pub(crate) struct Linked {
+    pub(crate) path: &'static str,
+    pub(crate) text: String,
+}
+
+/// What stands for what: the default's function of a term, and the chosen method's.
+pub(crate) fn exchanged(methods: &Methods) -> BTreeMap<&'static str, &'static str> {
+    EXCHANGED_TERMS
+        .iter()
+        .filter_map(|name| {
+            let default = halfvector_graph::method::term(name)?.methods.first()?.function?;
+            let chosen = methods.get(name).function?;
+            (default != chosen).then_some((default, chosen))
+        })
+        .collect()
+}
+
+impl Index {
+    /// The index of the shader library's files, made once.
+    pub(crate) fn standard() -> &'static Index {
+        static STANDARD: OnceLock<Index> = OnceLock::new();
+        STANDARD.get_or_init(|| {
+            // The files are embedded and tests slice them: this cannot fail in a build that passed.
+            Index::new(halfvector_shaders::FILES)
+                .unwrap_or_else(|e| panic!("the embedded shader library is wrong: {e}"))
+        })
+    }
+
+    fn new(files: &[halfvector_shaders::File]) -> Result<Index, SliceError> {
+        let mut index = Index {
+            files: Vec::new(),
+            items: Vec::new(),
+            by_name: HashMap::new(),
+            compiled: Mutex::new(HashMap::new()),
+        };
+        for file in files.iter().filter(|f| !f.path.starts_with("entry/") || f.path == TRANSFORM_FILE) {
+            let generic = generic_types(file.source).is_some();
+            for item in slice(file.source)? {
+                // `alias T` stands for the type only while the library file is read by itself.
+                if generic && item.kind == ItemKind::Alias && item.name == "T" {
+                    continue;
+                }
+                index.by_name.insert(item.name.clone(), index.items.len());
+                index.items.push(IndexItem { file: index.files.len(), item, inline: None });
+            }
+            index.files.push(SourceFile { path: file.path, source: file.source, generic });
+        }
+        for number in 0..index.items.len() {
+            index.items[number].inline = index.inline_of(number);
+        }
+        Ok(index)
+    }
+
+    /// Whether the library has an item of this name.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.by_name.contains_key(name)
+    }
+
+    /// A function by its name in the library.
+    pub(crate) fn instance(&self, name: &str, generic: Option<Type>) -> Option<Instance> {
+        let item = *self.by_name.get(name)?;
+        let generic = if self.files[self.items[item].file].generic { generic } else { None };
+        Some(Instance { item, generic })
+    }
+
+    /// An item's name in the shader.
+    pub(crate) fn name(&self, instance: Instance) -> String {
+        let name = &self.items[instance.item].item.name;
+        match instance.generic {
+            Some(ty) => format!("{name}_{}", ty.wgsl()),
+            None => name.clone(),
+        }
+    }
+
+    /// The expression of a function that is one built-in expression, with `arguments` in the place of its parameters.
+    pub(crate) fn inlined(&self, instance: Instance, arguments: &[String]) -> Option<String> {
+        let inline = self.items[instance.item].inline.as_ref()?;
+        let mut text = String::new();
+        for piece in &inline.pieces {
+            match piece {
+                Piece::Text(piece) => text.push_str(piece),
+                Piece::Generic => text.push_str(instance.generic?.wgsl()),
+                Piece::Parameter(index) => {
+                    let argument = arguments.get(*index)?;
+                    if argument.starts_with('-') {
+                        text.push('(');
+                        text.push_str(argument);
+                        text.push(')');
+                    } else {
+                        text.push_str(argument);
+                    }
+                }
+            }
+        }
+        Some(text)
+    }
+
+    /// All that `roots` reach, in order of files and items.
+    pub(crate) fn reach(&self, roots: &BTreeSet<Instance>, exchanged: &BTreeMap<&str, &str>) -> BTreeSet<Instance> {
+        let mut reached = roots.clone();
+        let mut open: Vec<Instance> = roots.iter().copied().collect();
+        while let Some(instance) = open.pop() {
+            let this = &self.items[instance.item];
+            for name in &this.item.dependencies {
+                let name = exchanged.get(name.as_str()).copied().unwrap_or(name);
+                let Some(&item) = self.by_name.get(name) else { continue };
+                let generic = if self.items[item].file == this.file { instance.generic } else { None };
+                let next = Instance { item, generic };
+                if reached.insert(next) {
+                    open.push(next);
+                }
+            }
+        }
+        reached
+    }
+
+    /// The text of an item in the shader, its doc comments turned into plain ones.
+    pub(crate) fn text(&self, instance: Instance, exchanged: &BTreeMap<&str, &str>) -> Linked {
+        let this = &self.items[instance.item];
+        let file = &self.files[this.file];
+        let text = emit(file.source, &this.item, |name| {
+            if let Some(generic) = instance.generic {
+                if name == "T" {
+                    return Some(generic.wgsl().to_owned());
+                }
+                if let Some(&item) = self.by_name.get(name)
+                    && self.items[item].file == this.file
+                {
+                    return Some(format!("{name}_{}", generic.wgsl()));
+                }
+            }
+            exchanged.get(name).map(|n| (*n).to_owned())
+        });
+        Linked { path: file.path, text }
+    }
+
+    /// A function as naga reads it, for folding; `None` when naga does not take it by itself. Kept for the next time.
+    pub(crate) fn compiled(&self, instance: Instance) -> Option<Arc<Compiled>> {
+        if let Ok(cache) = self.compiled.lock()
+            && let Some(known) = cache.get(&instance)
+        {
+            return known.clone();
+        }
+        let compiled = self.compile(instance).map(Arc::new);
+        if let Ok(mut cache) = self.compiled.lock() {
+            cache.insert(instance, compiled.clone());
+        }
+        compiled
+    }
+
+    fn compile(&self, instance: Instance) -> Option<Compiled> {
+        let none = BTreeMap::new();
+        let mut source = String::new();
+        for part in self.reach(&BTreeSet::from([instance]), &none) {
+            source.push_str(&self.text(part, &none).text);
+            source.push('\n');
+        }
+        let module = naga::front::wgsl::parse_str(&source).ok()?;
+        let name = self.name(instance);
+        let (function, body) = module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(&name))?;
+        let members = match body.result.as_ref().map(|r| &module.types[r.ty].inner) {
+            Some(naga::TypeInner::Struct { members, .. }) => {
+                members.iter().map(|m| m.name.clone().unwrap_or_default()).collect()
+            }
+            _ => Vec::new(),
+        };
+        let shape = eval::shape(body);
+        Some(Compiled { shape, members, function, module })
+    }
+
+    /// Recognises `fn f(a: A, b: B) -> C { return <expression>; }` whose expression names nothing of the library.
+    fn inline_of(&self, number: usize) -> Option<Inline> {
+        /// Longer expressions read better as a function.
+        const MAX_TOKENS: usize = 12;
+        let IndexItem { file, item, .. } = &self.items[number];
+        if item.kind != ItemKind::Fn {
+            return None;
+        }
+        let source = &self.files[*file].source[item.code_start..item.end];
+        let all: Vec<_> = tokens(source).into_iter().filter(|t| !t.kind.is_comment()).collect();
+        let text = |index: usize| all.get(index).map_or("", |t| t.text(source));
+        let open = (0..all.len()).find(|&i| text(i) == "{")?;
+        if text(open + 1) != "return" {
+            return None;
+        }
+        let end = (open + 2..all.len()).find(|&i| text(i) == ";")?;
+        if text(end + 1) != "}" || end + 2 != all.len() || end - open > MAX_TOKENS + 2 {
+            return None;
+        }
+        let header = (0..open).find(|&i| text(i) == "(")?;
+        let parameters: Vec<&str> =
+            (header + 1..open).filter(|&i| text(i + 1) == ":" && text(i) != ":").map(text).collect();
+        let mut pieces = vec![Piece::Text(String::new())];
+        let mut before = all[open + 2].start;
+        for index in open + 2..end {
+            let token = &all[index];
+            let word = token.text(source);
+            let gap = &source[before..token.start];
+            before = token.end;
+            if gap.contains('\n') || gap.contains("/*") {
+                return None;
+            }
+            pieces.push(Piece::Text(gap.to_owned()));
+            let is_name = token.kind == TokenKind::Identifier && (index == 0 || text(index - 1) != ".");
+            pieces.push(match parameters.iter().position(|p| *p == word) {
+                Some(parameter) if is_name => Piece::Parameter(parameter),
+                _ if is_name && word == "T" && self.files[*file].generic => Piece::Generic,
+                _ if is_name && self.by_name.contains_key(word) => return None,
+                _ => Piece::Text(word.to_owned()),
+            });
+        }
+        Some(Inline { pieces })
+    }
+}

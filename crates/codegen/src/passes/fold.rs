@@ -1,0 +1,183 @@
+//! Pass: constants are computed and identities taken out, so that neither reaches the shader.
+//!
+//! A call folds when its function is straight-line code of built-in operators and all its arguments are constants; a
+//! product with 1 or 0, a sum with 0 and a mix at 0 or 1 fold when one argument is. What is not finite is an error at
+//! its node, never text.
+
+use std::collections::HashMap;
+
+use halfvector_graph::value::Type;
+
+use crate::ir::{Arena, Entry, Expr, Id, Literal, Program, Stage, Ty};
+use crate::link::Index;
+use crate::passes::eval::{Kind, Number, Shape, Value};
+
+/// A node whose constant value is not a finite number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct NotFinite {
+    /// Index into the program's nodes.
+    pub(crate) node: Option<usize>,
+}
+
+/// Folds both stages of a program.
+pub(crate) fn fold<'a>(program: &mut Program<'a>, index: &Index) -> Vec<NotFinite> {
+    let mut faults = Vec::new();
+    fold_stage(&mut program.fragment, index, &mut faults);
+    fold_stage(&mut program.vertex, index, &mut faults);
+    faults
+}
+
+/// Folds one stage.
+pub(crate) fn fold_stage<'a>(stage: &mut Stage<'a>, index: &Index, faults: &mut Vec<NotFinite>) {
+    // Calls of functions that return structs, whose members are known.
+    let mut structs: HashMap<Id, Vec<(String, Literal)>> = HashMap::new();
+    stage.rebuild(|arena, _, entry| {
+        let folded = match &entry.expr {
+            Expr::Convert { of } => arena
+                .as_literal(*of)
+                .zip(value_type(entry.ty))
+                .map(|(literal, to)| Folded::Literal(Literal::new(to, &literal.components()))),
+            Expr::Field { of, name } => structs.get(of).and_then(|members| {
+                members.iter().find(|(n, _)| n == name).map(|(_, literal)| Folded::Literal(*literal))
+            }),
+            Expr::Call { function, generic, arguments } => {
+                call(arena, index, function, *generic, arguments, value_type(entry.ty))
+            }
+            Expr::Builtin { name, arguments } => builtin(arena, name, arguments, value_type(entry.ty)),
+            _ => None,
+        };
+        let (node, hint) = (entry.node, entry.hint);
+        Some(match folded {
+            Some(Folded::Literal(literal)) => {
+                if !literal.is_finite() {
+                    faults.push(NotFinite { node });
+                }
+                arena.push(Entry { expr: Expr::Literal(literal), ty: Ty::Value(literal.ty), node, hint })
+            }
+            Some(Folded::Same(id)) => id,
+            Some(Folded::Spread(id, ty)) => arena.convert(id, ty),
+            Some(Folded::Struct(members)) => {
+                if members.iter().any(|(_, literal)| !literal.is_finite()) {
+                    faults.push(NotFinite { node });
+                }
+                let id = arena.push(entry);
+                structs.insert(id, members);
+                id
+            }
+            None => arena.push(entry),
+        })
+    });
+}
+
+enum Folded {
+    Literal(Literal),
+    Same(Id),
+    Spread(Id, Type),
+    Struct(Vec<(String, Literal)>),
+}
+
+fn value_type(ty: Ty) -> Option<Type> {
+    match ty {
+        Ty::Value(ty) => Some(ty),
+        _ => None,
+    }
+}
+
+fn call(
+    arena: &Arena<'_>,
+    index: &Index,
+    function: &str,
+    generic: Option<Type>,
+    arguments: &[Id],
+    ty: Option<Type>,
+) -> Option<Folded> {
+    let literals: Vec<Option<Literal>> = arguments.iter().map(|id| arena.as_literal(*id)).collect();
+    if literals.iter().all(Option::is_none) {
+        return None;
+    }
+    let compiled = index.compiled(index.instance(function, generic)?)?;
+    let all: Option<Vec<Number>> = literals.iter().map(|l| l.as_ref().map(number)).collect();
+    if let Some(numbers) = all {
+        return Some(match (compiled.evaluate(&numbers)?, ty) {
+            (Value::Number(number), Some(ty)) => Folded::Literal(literal(ty, &number)),
+            (Value::Struct(members), None) => Folded::Struct(
+                compiled
+                    .members
+                    .iter()
+                    .zip(&members)
+                    .map(|(name, number)| Some((name.clone(), literal(type_of(number)?, number))))
+                    .collect::<Option<_>>()?,
+            ),
+            _ => return None,
+        });
+    }
+    let is = |argument: usize, x: f32| literals.get(argument).copied().flatten().is_some_and(|l| l.is_all(x));
+    use naga::BinaryOperator as B;
+    let kept = match compiled.shape {
+        Shape::Binary(B::Multiply, a, b) if is(a, 0.0) || is(b, 0.0) => {
+            return Some(Folded::Literal(Literal::new(ty?, &[0.0])));
+        }
+        Shape::Binary(B::Multiply | B::Divide, a, b) if is(b, 1.0) => a,
+        Shape::Binary(B::Multiply, a, b) if is(a, 1.0) => b,
+        Shape::Binary(B::Add | B::Subtract, a, b) if is(b, 0.0) => a,
+        Shape::Binary(B::Add, a, b) if is(a, 0.0) => b,
+        Shape::Mix(a, _, t) if is(t, 0.0) => a,
+        Shape::Mix(_, b, t) if is(t, 1.0) => b,
+        _ => return None,
+    };
+    same_or_spread(arena, *arguments.get(kept)?, ty?)
+}
+
+/// Operators and functions that passes add themselves.
+fn builtin(arena: &Arena<'_>, name: &str, arguments: &[Id], ty: Option<Type>) -> Option<Folded> {
+    let ty = ty?;
+    let literal = |n: usize| arguments.get(n).and_then(|id| arena.as_literal(*id));
+    let is = |n: usize, x: f32| literal(n).is_some_and(|l| l.is_all(x));
+    match name {
+        "*" if is(0, 1.0) => same_or_spread(arena, arguments[1], ty),
+        "*" if is(1, 1.0) => same_or_spread(arena, arguments[0], ty),
+        "*" => {
+            let (a, b) = (literal(0)?.components(), literal(1)?.components());
+            let product: Vec<f32> = (0..ty.components()).map(|i| a[i % a.len()] * b[i % b.len()]).collect();
+            Some(Folded::Literal(Literal::new(ty, &product)))
+        }
+        "mix" if is(2, 0.0) => same_or_spread(arena, arguments[0], ty),
+        "mix" if is(2, 1.0) => same_or_spread(arena, arguments[1], ty),
+        _ => None,
+    }
+}
+
+fn same_or_spread(arena: &Arena<'_>, id: Id, ty: Type) -> Option<Folded> {
+    match value_type(arena.get(id).ty)? {
+        from if from == ty => Some(Folded::Same(id)),
+        from if from.converts_to(ty) => Some(Folded::Spread(id, ty)),
+        _ => None,
+    }
+}
+
+fn number(literal: &Literal) -> Number {
+    let kind = match literal.ty {
+        Type::Bool => Kind::Bool,
+        Type::I32 => Kind::Int,
+        _ => Kind::Float,
+    };
+    let components: Vec<f64> = literal.components().iter().map(|x| f64::from(*x)).collect();
+    Number::new(kind, &components)
+}
+
+fn literal(ty: Type, number: &Number) -> Literal {
+    let components: Vec<f32> = number.components().iter().map(|x| *x as f32).collect();
+    Literal::new(ty, &components)
+}
+
+fn type_of(number: &Number) -> Option<Type> {
+    Some(match (number.kind, number.components().len()) {
+        (Kind::Bool, 1) => Type::Bool,
+        (Kind::Int, 1) => Type::I32,
+        (Kind::Float, 1) => Type::F32,
+        (Kind::Float, 2) => Type::Vec2,
+        (Kind::Float, 3) => Type::Vec3,
+        (Kind::Float, 4) => Type::Vec4,
+        _ => return None,
+    })
+}

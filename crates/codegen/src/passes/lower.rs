@@ -1,0 +1,342 @@
+//! Pass: the nodes behind chosen sockets of the surface become expressions. Each node is one call; its unconnected
+//! inputs become members of the `Parameters` struct or literals; nothing is simplified here.
+
+use std::collections::HashMap;
+
+use halfvector_graph::document::{Document, SocketRef};
+use halfvector_graph::library::Library;
+use halfvector_graph::method::Methods;
+use halfvector_graph::node_def::{Argument, Default, Function, Input as InputDef, NodeDef};
+use halfvector_graph::value::{SocketType, Type, Value};
+
+use crate::ir::{Arena, Entry, Expr, Id, Input, NodeInfo, Program, Stage, Table, Ty};
+use crate::link::Index;
+use crate::passes::fold;
+use crate::passes::specialise::SOCKETS;
+use crate::passes::types::Types;
+use crate::{CodegenError, Fold};
+
+/// The two stages of a rasteriser, which may call different functions for a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum StageKind {
+    Vertex,
+    Fragment,
+}
+
+/// Turns nodes into expressions. One per stage, and one more where a context means something else.
+pub(crate) struct Lowering<'a, 't> {
+    pub(crate) document: &'a Document,
+    pub(crate) types: &'t Types<'a>,
+    pub(crate) methods: &'t Methods,
+    pub(crate) fold: Fold,
+    pub(crate) stage: StageKind,
+    /// Expressions of the nodes met so far.
+    calls: HashMap<usize, Id>,
+    /// An expression to take in the place of a context.
+    substitute: Option<(&'static str, Id)>,
+}
+
+impl<'a, 't> Lowering<'a, 't> {
+    pub(crate) fn new(
+        document: &'a Document,
+        types: &'t Types<'a>,
+        methods: &'t Methods,
+        fold: Fold,
+        stage: StageKind,
+    ) -> Self {
+        Lowering { document, types, methods, fold, stage, calls: HashMap::new(), substitute: None }
+    }
+
+    /// From now on `context` is `id`; nodes that were met before are computed again.
+    pub(crate) fn substitute(&mut self, context: &'static str, id: Id) {
+        self.substitute = Some((context, id));
+        self.calls.clear();
+    }
+
+    /// The expression of input `name` of node number `node`; `None` when the node has no such input, or it takes no
+    /// value.
+    pub(crate) fn input(
+        &mut self,
+        arena: &mut Arena<'a>,
+        table: &mut Table,
+        node: usize,
+        name: &str,
+    ) -> Result<Option<Id>, CodegenError> {
+        let Some(index) = self.types.nodes[node].def.inputs.iter().position(|i| i.name == name) else {
+            return Ok(None);
+        };
+        // Depth first with an explicit stack: a node is made when all that it reads is made.
+        let mut stack: Vec<(usize, bool)> = self.types.sources[node][index].iter().map(|s| (s.node, false)).collect();
+        while let Some((at, ready)) = stack.pop() {
+            if self.calls.contains_key(&at) {
+                continue;
+            }
+            if ready {
+                let call = self.call(arena, table, at)?;
+                self.calls.insert(at, call);
+                continue;
+            }
+            stack.push((at, true));
+            let info = &self.types.nodes[at];
+            let function = self.function(info.def);
+            for (index, input) in info.def.inputs.iter().enumerate().rev() {
+                let wanted = function.arguments.iter().any(|a| matches!(a, Argument::Input(n) if *n == input.name));
+                if let (true, Some(source)) = (wanted, &self.types.sources[at][index]) {
+                    stack.push((source.node, false));
+                }
+            }
+        }
+        self.value(arena, table, node, index).map(Some)
+    }
+
+    /// The function that computes a node in this stage under the chosen methods.
+    pub(crate) fn function(&self, def: &'a NodeDef) -> &'a Function {
+        let by_method = def
+            .method_functions
+            .iter()
+            .find(|(term, method, _)| halfvector_graph::method::term(term).is_some() && self.methods.is(term, method));
+        match (self.stage, by_method, &def.vertex_function) {
+            (_, Some((_, _, function)), _) if self.stage == StageKind::Fragment || !function.implicit_derivatives => {
+                function
+            }
+            (StageKind::Vertex, _, Some(function)) => function,
+            _ => &def.function,
+        }
+    }
+
+    fn call(&self, arena: &mut Arena<'a>, table: &mut Table, node: usize) -> Result<Id, CodegenError> {
+        let info: &NodeInfo<'a> = &self.types.nodes[node];
+        let function = self.function(info.def);
+        if self.stage == StageKind::Vertex && function.implicit_derivatives {
+            return Err(CodegenError::NotInVertexStage { node: info.id.clone(), label: info.label.to_owned() });
+        }
+        let mut arguments = Vec::with_capacity(function.arguments.len());
+        for argument in &function.arguments {
+            let (Argument::Input(name) | Argument::Sampler(name)) = argument;
+            let Some(index) = info.def.inputs.iter().position(|i| i.name == *name) else {
+                return Err(CodegenError::Library(format!(
+                    "the function `{}` takes `{name}`, which is no input of `{}`",
+                    function.name, info.def.id
+                )));
+            };
+            let value = self.value(arena, table, node, index)?;
+            arguments.push(match (argument, &arena.get(value).expr) {
+                (Argument::Sampler(_), Expr::Texture(image)) => {
+                    let sampler = Expr::Sampler(*image);
+                    arena.push(Entry { expr: sampler, ty: Ty::Resource, node: None, hint: "" })
+                }
+                _ => value,
+            });
+        }
+        let generic = if info.def.generic.is_empty() { None } else { info.generic };
+        let expr = Expr::Call { function: &function.name, generic, arguments };
+        let ty = if function.returns_struct {
+            Ty::Struct
+        } else {
+            match info.def.outputs.first().map(|o| o.ty) {
+                Some(SocketType::Value(ty)) => Ty::Value(ty),
+                Some(SocketType::Generic) => Ty::Value(info.generic.unwrap_or(Type::F32)),
+                _ => Ty::Struct,
+            }
+        };
+        Ok(arena.push(Entry { expr, ty, node: Some(node), hint: "" }))
+    }
+
+    /// The value of an input, once what it is connected to is made.
+    fn value(&self, arena: &mut Arena<'a>, table: &mut Table, node: usize, index: usize) -> Result<Id, CodegenError> {
+        let info = &self.types.nodes[node];
+        let def = &info.def.inputs[index];
+        let ty = match def.ty {
+            SocketType::Value(ty) => ty,
+            SocketType::Generic => info.generic.unwrap_or(Type::F32),
+            SocketType::Texture => return self.texture(arena, table, node, def),
+            SocketType::Surface => {
+                return Err(CodegenError::Library(format!(
+                    "`{}` takes a surface, which this version cannot mix",
+                    info.def.id
+                )));
+            }
+        };
+        if let Some(source) = &self.types.sources[node][index] {
+            let from = &self.types.nodes[source.node];
+            let output = &from.def.outputs[source.output];
+            let call = self.calls[&source.node];
+            let id = if matches!(arena.get(call).ty, Ty::Struct) {
+                let from_ty = match output.ty {
+                    SocketType::Value(ty) => ty,
+                    _ => from.generic.unwrap_or(Type::F32),
+                };
+                let field = Expr::Field { of: call, name: &output.name };
+                arena.push(Entry { expr: field, ty: Ty::Value(from_ty), node: Some(source.node), hint: "" })
+            } else {
+                call
+            };
+            return Ok(arena.convert(id, ty));
+        }
+        let set = self.document.nodes[info.id].values.get(&def.name);
+        let components = match (set.and_then(Value::components), &def.default) {
+            (Some(components), _) => components.to_vec(),
+            (None, Default::Value(value)) => value.components().unwrap_or(&[0.0]).to_vec(),
+            (None, Default::Context(name)) => return Ok(self.context(arena, name, ty)),
+            (None, Default::Image(_)) => vec![0.0],
+        };
+        let parameter =
+            self.document.parameters.iter().position(|p| p.socket.node == *info.id && p.socket.socket == def.name);
+        if self.fold == Fold::Export && parameter.is_none() {
+            return Ok(arena.literal(ty, &components));
+        }
+        let input = table.input(node, index, || Input {
+            socket: SocketRef { node: info.id.clone(), socket: def.name.clone() },
+            ty,
+            value: crate::ir::Literal::new(ty, &components).components(),
+            parameter,
+        });
+        Ok(arena.push(Entry { expr: Expr::Input(input), ty: Ty::Value(ty), node: Some(node), hint: "" }))
+    }
+
+    fn context(&self, arena: &mut Arena<'a>, name: &str, ty: Type) -> Id {
+        let Some(context) = halfvector_graph::context::context(name) else {
+            return arena.literal(ty, &[0.0]);
+        };
+        if let Some((replaced, id)) = self.substitute
+            && replaced == context.name
+        {
+            return id;
+        }
+        let expr = Expr::Context(context.name);
+        let id = arena.push(Entry { expr, ty: Ty::Value(context.ty), node: None, hint: "" });
+        arena.convert(id, ty)
+    }
+
+    fn texture(
+        &self,
+        arena: &mut Arena<'a>,
+        table: &mut Table,
+        node: usize,
+        def: &InputDef,
+    ) -> Result<Id, CodegenError> {
+        let info = &self.types.nodes[node];
+        let Some(Value::Image(image)) = self.document.nodes[info.id].values.get(&def.name) else {
+            return Err(CodegenError::NoImage {
+                node: info.id.clone(),
+                label: info.label.to_owned(),
+                socket: def.name.clone(),
+            });
+        };
+        let image = table.image(node, image);
+        Ok(arena.push(Entry { expr: Expr::Texture(image), ty: Ty::Resource, node: None, hint: "" }))
+    }
+}
+
+/// The whole program: the surface's sockets for the fragment stage and the height for the vertex stage. The vertex stage
+/// is folded at once, since a height that is the same everywhere needs no normals derived from it.
+pub(crate) fn lower<'a>(
+    document: &'a Document,
+    types: &Types<'a>,
+    index: &Index,
+    methods: &Methods,
+    fold: Fold,
+) -> Result<Program<'a>, CodegenError> {
+    let mut table = Table::default();
+    let mut vertex = Stage::default();
+    let mut lowering = Lowering::new(document, types, methods, fold, StageKind::Vertex);
+    if let Some(height) = lowering.input(&mut vertex.arena, &mut table, types.surface, "height")? {
+        vertex.roots.insert("height", height);
+    }
+    // Faults are found again, and told, when the whole program is folded.
+    fold::fold_stage(&mut vertex, index, &mut Vec::new());
+    let varies =
+        vertex.root("height").is_some_and(|id| !matches!(vertex.arena.get(id).expr, Expr::Literal(_) | Expr::Input(_)));
+
+    let mut fragment = Stage::default();
+    let derived_normal = varies && !methods.is("height_normals", "report");
+    let mut lowering = Lowering::new(document, types, methods, fold, StageKind::Fragment);
+    for socket in SOCKETS.into_iter().filter(|s| *s != "normal") {
+        if let Some(id) = lowering.input(&mut fragment.arena, &mut table, types.surface, socket)? {
+            fragment.roots.insert(socket, id);
+        }
+    }
+    if derived_normal && let Some(height) = lowering.input(&mut fragment.arena, &mut table, types.surface, "height")? {
+        let normal = normal_from_height(&mut fragment.arena, height);
+        lowering.substitute("world_normal", normal);
+    }
+    if let Some(id) = lowering.input(&mut fragment.arena, &mut table, types.surface, "normal")? {
+        let unit = unit_normal(&mut fragment.arena, types, id);
+        fragment.roots.insert("normal", unit);
+    }
+    let Table { inputs, images, .. } = table;
+    Ok(Program { nodes: types.nodes.clone(), inputs, images, fragment, vertex, derived_normal })
+}
+
+/// The program of the material alone: the call of the surface node, as the root `surface` of the fragment stage.
+pub(crate) fn lower_material<'a>(
+    document: &'a Document,
+    types: &Types<'a>,
+    methods: &Methods,
+) -> Result<Program<'a>, CodegenError> {
+    let mut table = Table::default();
+    let mut stage = Stage::default();
+    let mut lowering = Lowering::new(document, types, methods, Fold::Export, StageKind::Fragment);
+    // Making each input makes all nodes that the surface reads.
+    for input in &types.nodes[types.surface].def.inputs {
+        lowering.input(&mut stage.arena, &mut table, types.surface, &input.name)?;
+    }
+    let surface = lowering.call(&mut stage.arena, &mut table, types.surface)?;
+    stage.roots.insert("surface", surface);
+    let Table { inputs, images, .. } = table;
+    let nodes = types.nodes.clone();
+    Ok(Program { nodes, inputs, images, fragment: stage, ..Program::default() })
+}
+
+/// The displaced surface's normal, from screen-space derivatives of the position that is not displaced and of the
+/// height there.
+fn normal_from_height<'a>(arena: &mut Arena<'a>, height: Id) -> Id {
+    let position = arena.own(Expr::Context("world_position"), Type::Vec3, "");
+    let normal = arena.own(Expr::Context("world_normal"), Type::Vec3, "");
+    let mut derivative = |name, of, ty| arena.own(Expr::Builtin { name, arguments: vec![of] }, ty, "");
+    let arguments = vec![
+        derivative("dpdx", position, Type::Vec3),
+        derivative("dpdy", position, Type::Vec3),
+        normal,
+        derivative("dpdx", height, Type::F32),
+        derivative("dpdy", height, Type::F32),
+    ];
+    arena.own(Expr::Call { function: NORMAL_FROM_HEIGHT, generic: None, arguments }, Type::Vec3, "displaced_normal")
+}
+
+const NORMAL_FROM_HEIGHT: &str = "normal_from_height";
+
+/// The normal, made unit unless it is known to be: the mesh's, a displaced surface's, and what a normal-mapping node
+/// returns are.
+fn unit_normal<'a>(arena: &mut Arena<'a>, types: &Types<'a>, id: Id) -> Id {
+    let entry = arena.get(id);
+    let unit = match &entry.expr {
+        Expr::Context("world_normal") => true,
+        Expr::Call { function: NORMAL_FROM_HEIGHT, .. } => true,
+        Expr::Call { .. } => entry
+            .node
+            .is_some_and(|node| types.nodes[node].def.method_functions.iter().any(|(term, _, _)| term == "normal")),
+        _ => false,
+    };
+    if unit {
+        return id;
+    }
+    let otherwise = arena.own(Expr::Context("world_normal"), Type::Vec3, "");
+    let expr = Expr::Call { function: "normalize_or", generic: None, arguments: vec![id, otherwise] };
+    arena.own(expr, Type::Vec3, "shading_normal")
+}
+
+/// The value that an unconnected input of a document has, with as many components as `ty` takes: what
+/// `UniformSource::Input` is filled with. `None` for what has no number (a texture, an unset context, an unknown node).
+pub fn input_value(document: &Document, library: &Library, socket: &SocketRef, ty: Type) -> Option<Vec<f32>> {
+    let node = document.nodes.get(&socket.node)?;
+    let set = node.values.get(&socket.socket);
+    let value = match set {
+        Some(value) => value,
+        None => match &library.get(&node.node)?.inputs.iter().find(|i| i.name == socket.socket)?.default {
+            Default::Value(value) => value,
+            Default::Context(_) | Default::Image(_) => return None,
+        },
+    };
+    Some(crate::ir::Literal::new(ty, value.components()?).components())
+}

@@ -1,0 +1,327 @@
+//! Pass: what the scene and the material need of the shading is decided, and what it is fed with becomes expressions.
+//!
+//! A lobe of weight zero, a light kind without lights, an environment that is not there: none of them is emitted. Each
+//! decision that leaves something out says so in words.
+
+use halfvector_graph::document::{AlphaMode, Document};
+use halfvector_graph::needs::Needs;
+use halfvector_graph::value::Type;
+
+use crate::ir::{Expr, Id, Program, Stage};
+use crate::link::Index;
+use crate::passes::fold::fold_stage;
+use crate::reflection::LightKind;
+use crate::{Dropped, Fold};
+
+/// Largest reflectance at normal incidence of a dielectric whose multiple-scattering compensation is left out.
+pub(crate) const COMPENSATION_MIN_F0: f32 = 0.08;
+
+/// The most that leaving the compensation out changes the light that a surface reflects, as a part of the light that
+/// falls on it from a uniform environment: the greatest f0 (f0 a + b) (1 - E)/E with E = a + b at f0 = 0.08. A test
+/// computes it by quadrature.
+pub(crate) const COMPENSATION_BOUND: f32 = 0.008;
+
+/// What the fragment shader shades with.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Plan {
+    /// Lights by kind, kinds without lights left out.
+    pub(crate) lights: Vec<(LightKind, u32)>,
+    /// Whether there is an environment, and it is turned.
+    pub(crate) environment: Option<bool>,
+    pub(crate) diffuse: bool,
+    pub(crate) specular: bool,
+    pub(crate) compensation: bool,
+    pub(crate) emission: bool,
+    /// Occlusion of the environment.
+    pub(crate) occlusion: bool,
+    /// What opacity does, `Opaque` when it does nothing.
+    pub(crate) alpha_mode: AlphaMode,
+    pub(crate) height: bool,
+    pub(crate) derived_normal: bool,
+    pub(crate) double_sided: bool,
+    /// Whether a lobe looks at the direction to the viewer.
+    pub(crate) looks_at_view: bool,
+    pub(crate) dropped: Vec<Dropped>,
+}
+
+impl Plan {
+    pub(crate) fn is_lit(&self) -> bool {
+        self.diffuse || self.specular
+    }
+
+    pub(crate) fn drop_it(&mut self, what: &str, why: impl Into<String>) {
+        self.dropped.push(Dropped { what: what.to_owned(), why: why.into() });
+    }
+}
+
+/// The decisions that are the same whatever is folded, so that a live shader draws the picture of the exported one:
+/// taken on the program as it is exported.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Constants {
+    /// The dielectric's f0 when it is known and nothing can change it.
+    pub(crate) dielectric_f0: Option<f32>,
+}
+
+/// Takes those decisions on a program whose numbers are folded.
+pub(crate) fn constants(program: &Program<'_>, index: &Index) -> Constants {
+    let stage = &program.fragment;
+    let literal = |socket: &str| stage.root(socket).and_then(|id| stage.arena.as_literal(id));
+    let is = |socket: &str, x: f32| literal(socket).is_some_and(|l| l.is_all(x));
+    let fixed = ["ior", "specular"].iter().all(|socket| literal(socket).is_some());
+    if !is("metallic", 0.0) || !fixed {
+        return Constants { dielectric_f0: None };
+    }
+    let mut probe = Stage { arena: stage.arena.clone(), roots: stage.roots.clone() };
+    let weight = input(&mut probe, "specular", Type::F32, 1.0);
+    let f0 = dielectric_f0(&mut probe, weight, is("specular", 1.0), is("specular", 0.0));
+    probe.roots.insert("dielectric_f0", f0);
+    fold_stage(&mut probe, index, &mut Vec::new());
+    let folded = probe.root("dielectric_f0").and_then(|id| probe.arena.as_literal(id));
+    Constants { dielectric_f0: folded.map(|l| l.components()[0]) }
+}
+
+/// What the surface's sockets are known to be.
+struct Known<'p, 'a> {
+    program: &'p Program<'a>,
+    fold: Fold,
+}
+
+impl Known<'_, '_> {
+    /// Whether a socket equals `x` in every component: a constant, or a number of the document that is specialised live.
+    fn is(&self, stage: &Stage<'_>, socket: &str, x: f32) -> bool {
+        let Some(id) = stage.root(socket) else { return false };
+        match &stage.arena.get(id).expr {
+            Expr::Literal(literal) => literal.is_all(x),
+            Expr::Input(input) if self.fold == Fold::Live => {
+                self.program.inputs[*input].value.iter().all(|value| *value == x)
+            }
+            _ => false,
+        }
+    }
+
+    fn surface(&self, socket: &str, x: f32) -> bool {
+        self.is(&self.program.fragment, socket, x)
+    }
+}
+
+/// The sockets that shading reads, of a surface that has all of them.
+pub(crate) const SOCKETS: [&str; 9] =
+    ["base_color", "metallic", "perceptual_roughness", "ior", "specular", "normal", "occlusion", "emission", "opacity"];
+
+/// Decides what is emitted.
+pub(crate) fn specialise(
+    program: &mut Program<'_>,
+    document: &Document,
+    needs: &Needs,
+    fold: Fold,
+    constants: Constants,
+) -> Plan {
+    let mut plan = decide(program, document, needs, fold, constants);
+    let metal = metal(program, fold);
+    let weightless = Known { program, fold }.surface("specular", 0.0);
+    let full = Known { program, fold }.surface("specular", 1.0);
+    let stage = &mut program.fragment;
+    if plan.diffuse {
+        let color = diffuse_color(stage, metal);
+        stage.roots.insert("diffuse_color", color);
+    }
+    if plan.specular {
+        let (f0, f90) = reflectances(stage, metal, weightless, full);
+        stage.roots.insert("f0", f0);
+        stage.roots.insert("f90", f90);
+    }
+    keep_wanted(stage, &plan);
+    if !plan.height {
+        program.vertex = Stage::default();
+    }
+    plan
+}
+
+/// How metallic a surface is known to be.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Metal {
+    None,
+    Whole,
+    Mixed,
+}
+
+fn metal(program: &Program<'_>, fold: Fold) -> Metal {
+    let known = Known { program, fold };
+    if known.surface("metallic", 0.0) {
+        Metal::None
+    } else if known.surface("metallic", 1.0) {
+        Metal::Whole
+    } else {
+        Metal::Mixed
+    }
+}
+
+fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold, constants: Constants) -> Plan {
+    let known = Known { program, fold };
+    let metal = metal(program, fold);
+    let mut plan = Plan { double_sided: document.surface.double_sided, ..Plan::default() };
+
+    let counts = [needs.directional_lights, needs.point_lights, needs.spot_lights];
+    plan.lights = LightKind::ALL.into_iter().zip(counts).filter(|(_, count)| *count > 0).collect();
+    plan.environment = needs.environment.map(|e| e.rotated);
+    let lit = !plan.lights.is_empty() || plan.environment.is_some();
+    if !lit {
+        plan.drop_it("lobes", "the scene has no light: only emission is left");
+    }
+    if plan.environment.is_none() {
+        plan.drop_it("environment light", "the scene has no environment: 2 cubes and their lookups saved");
+    }
+
+    plan.diffuse = lit && metal != Metal::Whole;
+    if lit && !plan.diffuse {
+        plan.drop_it("diffuse lobe", "metallic is 1: a metal reflects nothing diffusely");
+    }
+    let no_specular = metal == Metal::None && known.surface("specular", 0.0);
+    plan.specular = lit && !no_specular;
+    if lit && no_specular {
+        plan.drop_it("specular lobe", "specular is 0 and metallic is 0: its f0 and f90 are 0");
+    }
+    if lit && metal == Metal::None && plan.specular {
+        plan.drop_it("metal", "metallic is 0: f0 comes from the index of refraction alone");
+    }
+    plan.compensation = plan.specular && compensates(&mut plan, needs, constants);
+
+    plan.emission = !known.surface("emission", 0.0);
+    if !plan.emission {
+        plan.drop_it("emission", "it is 0");
+    }
+    plan.occlusion = plan.environment.is_some() && plan.is_lit() && !known.surface("occlusion", 1.0);
+    if plan.environment.is_some() && !plan.occlusion {
+        plan.drop_it("occlusion", "it is 1");
+    }
+    decide_opacity(&mut plan, &known, document);
+    decide_height(&mut plan, &known, needs, lit);
+    let mirror = plan.environment.is_some() && (plan.specular || needs.methods.is("irradiance", "last_level"));
+    plan.looks_at_view = plan.specular || mirror || !needs.methods.is("diffuse", "lambert");
+    plan
+}
+
+fn compensates(plan: &mut Plan, needs: &Needs, constants: Constants) -> bool {
+    if needs.methods.is("compensation", "none") {
+        plan.drop_it("energy compensation", "the method is `none`: single scattering only");
+        return false;
+    }
+    match constants.dielectric_f0 {
+        Some(f0) if f0 <= COMPENSATION_MIN_F0 => {
+            plan.drop_it(
+                "energy compensation",
+                format!(
+                    "f0 is {f0} and fixed: it would change the reflected light by less than {} % of the light that \
+                     falls on the surface; no table over (n.v, roughness) is read for it",
+                    100.0 * COMPENSATION_BOUND
+                ),
+            );
+            false
+        }
+        _ => true,
+    }
+}
+
+fn decide_opacity(plan: &mut Plan, known: &Known<'_, '_>, document: &Document) {
+    plan.alpha_mode = document.surface.alpha_mode;
+    let why = match plan.alpha_mode {
+        AlphaMode::Opaque => "the material is opaque",
+        _ if known.surface("opacity", 1.0) => "it is 1",
+        _ => return,
+    };
+    plan.alpha_mode = AlphaMode::Opaque;
+    plan.drop_it("opacity", why);
+}
+
+fn decide_height(plan: &mut Plan, known: &Known<'_, '_>, needs: &Needs, lit: bool) {
+    plan.height = known.program.vertex.root("height").is_some() && !known.is(&known.program.vertex, "height", 0.0);
+    if !plan.height {
+        plan.drop_it("displacement", "height is 0");
+        return;
+    }
+    plan.derived_normal = lit && known.program.derived_normal;
+    if needs.methods.is("height_normals", "report") {
+        plan.drop_it("normals of the displaced surface", "the method is `report`: the old normal is kept");
+    } else if !known.program.derived_normal {
+        plan.drop_it("normals of the displaced surface", "height is the same everywhere");
+    }
+}
+
+fn diffuse_color<'a>(stage: &mut Stage<'a>, metal: Metal) -> Id {
+    let base_color = input(stage, "base_color", Type::Vec3, 0.5);
+    if metal == Metal::None {
+        return base_color;
+    }
+    let metallic = input(stage, "metallic", Type::F32, 0.0);
+    let expr = Expr::Call { function: "diffuse_color", generic: None, arguments: vec![base_color, metallic] };
+    stage.arena.own(expr, Type::Vec3, "diffuse_albedo")
+}
+
+/// f0 and f90 of the specular lobe. Khronos 2021, KHR_materials_ior and KHR_materials_specular: the dielectric's are
+/// scaled by the weight `specular`, a metal's f0 is its base colour and its f90 is 1.
+fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full: bool) -> (Id, Id) {
+    let arena_one = |stage: &mut Stage<'a>, x: f32| stage.arena.literal(Type::Vec3, &[x]);
+    if metal == Metal::Whole {
+        return (input(stage, "base_color", Type::Vec3, 0.5), arena_one(stage, 1.0));
+    }
+    let weight = if full {
+        stage.arena.literal(Type::F32, &[1.0])
+    } else if weightless {
+        stage.arena.literal(Type::F32, &[0.0])
+    } else {
+        input(stage, "specular", Type::F32, 1.0)
+    };
+    let dielectric_f0 = dielectric_f0(stage, weight, full, weightless);
+    if metal == Metal::None {
+        return (stage.arena.convert(dielectric_f0, Type::Vec3), stage.arena.convert(weight, Type::Vec3));
+    }
+    let base_color = input(stage, "base_color", Type::Vec3, 0.5);
+    let metallic = input(stage, "metallic", Type::F32, 0.0);
+    let arguments = vec![base_color, metallic, dielectric_f0];
+    let call = Expr::Call { function: "f0_from_metallic", generic: None, arguments };
+    let f0 = stage.arena.own(call, Type::Vec3, "f0");
+    let f90 = if full {
+        arena_one(stage, 1.0)
+    } else {
+        let one = stage.arena.literal(Type::F32, &[1.0]);
+        let mixed = Expr::Builtin { name: "mix", arguments: vec![weight, one, metallic] };
+        let mixed = stage.arena.own(mixed, Type::F32, "f90");
+        stage.arena.convert(mixed, Type::Vec3)
+    };
+    (f0, f90)
+}
+
+/// The dielectric's f0: of the index of refraction, times the weight.
+fn dielectric_f0(stage: &mut Stage<'_>, weight: Id, full: bool, weightless: bool) -> Id {
+    if weightless {
+        return weight;
+    }
+    let ior = input(stage, "ior", Type::F32, 1.5);
+    let expr = Expr::Call { function: "f0_from_ior", generic: None, arguments: vec![ior] };
+    let f0 = stage.arena.own(expr, Type::F32, "dielectric_f0");
+    if full {
+        return f0;
+    }
+    let weighted = Expr::Builtin { name: "*", arguments: vec![f0, weight] };
+    stage.arena.own(weighted, Type::F32, "dielectric_f0")
+}
+
+/// A socket's value, or a constant for a surface node that has no such socket.
+fn input(stage: &mut Stage<'_>, socket: &'static str, ty: Type, otherwise: f32) -> Id {
+    match stage.root(socket) {
+        Some(id) => id,
+        None => stage.arena.literal(ty, &[otherwise]),
+    }
+}
+
+/// Leaves as roots only what the shading of this plan reads.
+fn keep_wanted(stage: &mut Stage<'_>, plan: &Plan) {
+    stage.roots.retain(|name, _| match *name {
+        "diffuse_color" | "f0" | "f90" => true,
+        "normal" | "perceptual_roughness" => plan.is_lit(),
+        "occlusion" => plan.occlusion,
+        "emission" => plan.emission,
+        "opacity" => plan.alpha_mode != AlphaMode::Opaque,
+        _ => false,
+    });
+}

@@ -1,0 +1,60 @@
+//! Pass: the nodes that the surface is made of, in an order in which each comes after what feeds it, with every generic
+//! type decided and every link looked up.
+
+use std::collections::HashMap;
+
+use halfvector_graph::check::surface_node;
+use halfvector_graph::document::Document;
+use halfvector_graph::library::Library;
+use halfvector_graph::resolve::resolve_in;
+use halfvector_graph::wiring::Wiring;
+
+use crate::CodegenError;
+use crate::ir::NodeInfo;
+
+/// The output that feeds an input: numbers of the node and of its output.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Source {
+    pub(crate) node: usize,
+    pub(crate) output: usize,
+}
+
+/// The nodes that the surface is made of.
+pub(crate) struct Types<'a> {
+    pub(crate) nodes: Vec<NodeInfo<'a>>,
+    /// By node and input.
+    pub(crate) sources: Vec<Vec<Option<Source>>>,
+    /// The surface node.
+    pub(crate) surface: usize,
+}
+
+/// Looks everything up that the surface reaches.
+pub(crate) fn resolve<'a>(document: &'a Document, library: &'a Library) -> Result<Types<'a>, CodegenError> {
+    let root = surface_node(document, library).ok_or(CodegenError::NoSurface)?;
+    let wiring = Wiring::new(document);
+    let order = wiring.order(&[root]).map_err(|cycle| CodegenError::Library(cycle.to_string()))?;
+    let resolved = resolve_in(document, library, &wiring);
+    let mut types = Types { nodes: Vec::new(), sources: Vec::new(), surface: 0 };
+    let mut index: HashMap<&str, usize> = HashMap::new();
+    for id in order {
+        let (Some((id, node)), Some(known)) = (document.nodes.get_key_value(id), resolved.get(id)) else { continue };
+        let sources = known
+            .def
+            .inputs
+            .iter()
+            .map(|input| {
+                let from = wiring.incoming(id, &input.name)?;
+                let node = *index.get(from.node.as_str())?;
+                let info: &NodeInfo<'_> = &types.nodes[node];
+                let output = info.def.outputs.iter().position(|o| o.name == from.socket)?;
+                Some(Source { node, output })
+            })
+            .collect();
+        index.insert(id, types.nodes.len());
+        types.surface = types.nodes.len();
+        let label = node.label.as_deref().unwrap_or(&known.def.label);
+        types.nodes.push(NodeInfo { id, label, def: known.def, generic: known.generic });
+        types.sources.push(sources);
+    }
+    Ok(types)
+}

@@ -1,0 +1,172 @@
+//! Constants, identities, and numbers that stay open.
+
+use super::{environment, exported, made, maps, material, sun, with_parameters};
+use crate::{CodegenError, Fold, shader};
+use halfvector_graph::document::Document;
+use halfvector_graph::library::Library;
+use halfvector_graph::value::Value;
+
+#[test]
+fn constant_subgraphs_are_one_number() {
+    let document = material(
+        "",
+        r#""sum": {"node": "math/add", "values": {"a": 0.25, "b": 0.125}},
+           "twice": {"node": "math/multiply", "values": {"b": 2.0}}"#,
+        r#"{"from": "sum.out", "to": "twice.a"}, {"from": "twice.out", "to": "surface.perceptual_roughness"}"#,
+    );
+    let text = exported(&document, &sun()).wgsl;
+    assert!(text.contains("max(0.75, PUNCTUAL_ROUGHNESS_FLOOR)"), "{text}");
+    assert!(!text.contains("node_math"), "{text}");
+}
+
+#[test]
+fn f0_is_folded() {
+    let text = exported(&material(r#""ior": 1.5"#, "", ""), &sun()).wgsl;
+    assert!(text.contains("Specular(vec3f(0.04"), "{text}");
+    assert!(!text.contains("f0_from_ior"), "{text}");
+}
+
+#[test]
+fn identities_vanish() {
+    let document = material(
+        "",
+        r#""noise": {"node": "procedural/value_noise"},
+           "same": {"node": "math/multiply", "label": "Same", "values": {"b": 1.0}},
+           "also": {"node": "math/add", "label": "Also", "values": {"b": 0.0}},
+           "still": {"node": "math/mix", "label": "Still", "values": {"b": 7.0, "t": 0.0}}"#,
+        r#"{"from": "noise.out", "to": "same.a"}, {"from": "same.out", "to": "also.a"},
+           {"from": "also.out", "to": "still.a"}, {"from": "still.out", "to": "surface.perceptual_roughness"}"#,
+    );
+    let text = exported(&document, &sun()).wgsl;
+    for label in ["Same", "Also", "Still"] {
+        assert!(!text.contains(&format!("// {label}")), "{label} is an identity\n{text}");
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_a_problem_of_its_node() {
+    let document = material(
+        "",
+        r#""huge": {"node": "math/multiply", "label": "Huge", "values": {"a": 3e38, "b": 10.0}}"#,
+        r#"{"from": "huge.out", "to": "surface.base_color"}"#,
+    );
+    for fold in [Fold::Live, Fold::Export] {
+        let error = shader(&document, Library::standard(), &sun(), fold).expect_err("infinity");
+        let CodegenError::Problems(problems) = &error else { panic!("{error}") };
+        assert_eq!(problems[0].node.as_deref(), Some("huge"));
+        assert!(error.to_string().contains("Huge"), "{error}");
+    }
+}
+
+/// Every number of a document, changed, leaves a live shader as it is.
+#[test]
+fn live_numbers_change_no_text() {
+    let mut document = maps();
+    for (id, node) in [("scaled", "math/multiply"), ("noise", "procedural/fbm")] {
+        document.nodes.insert(
+            id.into(),
+            super::document(&format!(
+                r#"{{"halfvector": 1, "name": "", "nodes": {{"{id}": {{"node": "{node}"}}}}, "links": []}}"#
+            ))
+            .nodes
+            .remove(id)
+            .expect("the node"),
+        );
+    }
+    let before = made(&document, &environment(), Fold::Live).wgsl;
+    let ids: Vec<String> = document.nodes.keys().cloned().collect();
+    let mut tried = 0;
+    for id in ids {
+        let def = Library::standard().get(&document.nodes[&id].node).expect("a standard node");
+        for input in &def.inputs {
+            let halvfector_default = match &input.default {
+                halfvector_graph::node_def::Default::Value(value) => value.clone(),
+                _ => continue,
+            };
+            if document.links.iter().any(|l| l.to.node == id && l.to.socket == input.name) {
+                continue;
+            }
+            let changed = match &halvfector_default {
+                Value::Bool(b) => Value::Bool(!b),
+                Value::Number(_)
+                    if input.ty == halfvector_graph::value::SocketType::Value(halfvector_graph::value::Type::I32) =>
+                {
+                    Value::Number(3.0)
+                }
+                Value::Number(_) => Value::Number(0.37),
+                Value::Vec2(_) => Value::Vec2([0.37, 0.2]),
+                Value::Vec3(_) => Value::Vec3([0.37, 0.2, 0.9]),
+                Value::Vec4(_) => Value::Vec4([0.37, 0.2, 0.9, 0.1]),
+                Value::Image(_) => continue,
+            };
+            // A neutral weight is the one number that specialises, see `lobe_weights_specialise_live`.
+            if id == "surface"
+                && ["specular", "occlusion", "emission", "opacity", "height"].contains(&input.name.as_str())
+            {
+                continue;
+            }
+            let mut other = document.clone();
+            other.nodes.get_mut(&id).expect("the node").values.insert(input.name.clone(), changed);
+            let after = shader(&other, Library::standard(), &environment(), Fold::Live).expect("a shader").wgsl;
+            assert_eq!(before, after, "{id}.{}", input.name);
+            tried += 1;
+        }
+    }
+    assert!(tried >= 5, "{tried}");
+}
+
+#[test]
+fn lobe_weights_specialise_live() {
+    let live = |values: &str| made(&material(values, "", ""), &environment(), Fold::Live).wgsl;
+    let mixed = live(r#""metallic": 0.5, "emission": [1, 0, 0], "occlusion": 0.5"#);
+    assert!(mixed.contains("f0_from_metallic") && mixed.contains("parameters.surface_emission"));
+    assert_eq!(mixed, live(r#""metallic": 0.25, "emission": [0, 2, 0], "occlusion": 0.9"#));
+    assert!(!live(r#""metallic": 1"#).contains("Diffuse("));
+    assert!(!live(r#""specular": 0"#).contains("Specular("));
+    assert!(!live("").contains("emission"));
+    assert!(!live("").contains("f0_from_metallic"));
+}
+
+/// Under export an exposed parameter never specialises, whatever its default.
+#[test]
+fn exposed_parameters_stay() {
+    let exposed = |fold| {
+        let parameter = r#"{"name": "metallic", "socket": "surface.metallic", "range": [0, 1]}"#;
+        made(&with_parameters(r#""metallic": 1"#, "", "", parameter), &environment(), fold)
+    };
+    let export = exposed(Fold::Export);
+    assert!(export.wgsl.contains("parameters.metallic") && export.wgsl.contains("Diffuse("), "{}", export.wgsl);
+    assert_eq!(export.reflection.parameters[0].name, "metallic");
+    assert_eq!(export.reflection.parameters[0].default, [1.0]);
+    assert!(!exposed(Fold::Live).wgsl.contains("Diffuse("));
+}
+
+#[test]
+fn moving_a_node_changes_nothing() {
+    let here = maps();
+    let mut there = here.clone();
+    there.layout.insert("albedo".into(), [512.0, -3.5]);
+    let wgsl = |document: &Document| exported(document, &environment()).wgsl;
+    assert_eq!(wgsl(&here), wgsl(&there));
+}
+
+#[test]
+fn the_order_of_links_changes_nothing() {
+    let here = maps();
+    let mut there = here.clone();
+    there.links.reverse();
+    assert_eq!(exported(&here, &environment()), exported(&there, &environment()));
+}
+
+#[test]
+fn equal_nodes_are_computed_once() {
+    let noise = |id: &str| format!(r#""{id}": {{"node": "procedural/value_noise"}}"#);
+    let document = material(
+        "",
+        &format!("{}, {}", noise("one"), noise("two")),
+        r#"{"from": "one.out", "to": "surface.base_color"}, {"from": "two.out", "to": "surface.perceptual_roughness"}"#,
+    );
+    let text = exported(&document, &sun()).wgsl;
+    let entry = text.split("fn fs_main").nth(1).expect("an entry point").split("\n}").next().expect("a body");
+    assert_eq!(entry.matches("node_procedural_value_noise").count(), 1, "{entry}");
+}

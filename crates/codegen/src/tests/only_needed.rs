@@ -1,0 +1,122 @@
+//! Nothing that is not used: removing any binding, varying, attribute or uniform member breaks the shader.
+
+use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput, ToneMap};
+
+use super::{environment, exported, made, maps, material, nothing, sun};
+use crate::Fold;
+use crate::passes::specialise::{COMPENSATION_BOUND, COMPENSATION_MIN_F0};
+
+fn valid(text: &str) -> bool {
+    let Ok(module) = naga::front::wgsl::parse_str(text) else { return false };
+    crate::validate::validate_module(&module).is_ok()
+}
+
+#[test]
+fn removing_any_declaration_breaks_it() {
+    let everything = Needs {
+        directional_lights: 2,
+        point_lights: 1,
+        spot_lights: 3,
+        environment: Some(EnvironmentNeeds { rotated: true }),
+        output: ShaderOutput::Display(ToneMap::PbrNeutral),
+        ..nothing()
+    };
+    let mut tried = 0;
+    for document in
+        [material("", "", ""), maps(), material(r#""metallic": 1"#, "", ""), material(r#""specular": 0"#, "", "")]
+    {
+        for needs in [nothing(), sun(), environment(), everything.clone()] {
+            for fold in [Fold::Live, Fold::Export] {
+                let shader = made(&document, &needs, fold);
+                let library = shader.wgsl.find("// ---- ").unwrap_or(shader.wgsl.len());
+                for (start, line) in lines(&shader.wgsl[..library]) {
+                    let declares = line.starts_with("@group") || (line.starts_with("    ") && line.ends_with(','));
+                    if declares {
+                        let without = format!("{}{}", &shader.wgsl[..start], &shader.wgsl[start + line.len()..]);
+                        assert!(!valid(&without), "not needed: {line}\n{}", shader.wgsl);
+                        tried += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(tried > 200, "{tried}");
+}
+
+fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    text.split_inclusive('\n').scan(0, |at, line| {
+        let start = *at;
+        *at += line.len();
+        Some((start, line.trim_end_matches('\n')))
+    })
+}
+
+/// Every function of the library that stands in a shader is reached from an entry point.
+#[test]
+fn no_function_is_idle() {
+    for document in [material("", "", ""), maps()] {
+        let shader = exported(&document, &environment());
+        let module = naga::front::wgsl::parse_str(&shader.wgsl).expect("valid");
+        let mut compacted = module.clone();
+        naga::compact::compact(&mut compacted, naga::compact::KeepUnused::No);
+        assert_eq!(module.functions.len(), compacted.functions.len());
+        assert_eq!(module.global_variables.len(), compacted.global_variables.len());
+    }
+}
+
+#[test]
+fn compensation_of_a_dielectric_is_left_out_with_its_reason() {
+    let plain = exported(&material("", "", ""), &sun());
+    assert!(!plain.wgsl.contains("dfg"), "{}", plain.wgsl);
+    assert!(plain.dropped.iter().any(|d| d.what == "energy compensation" && d.why.contains("less than")));
+    assert!(plain.wgsl.contains("// left out: energy compensation"));
+    let metal = exported(&material(r#""metallic": 1"#, "", ""), &sun());
+    assert!(metal.wgsl.contains("energy_compensation(specular.f0, dfg)"));
+    let glassy = exported(&material(r#""ior": 2.4"#, "", ""), &sun());
+    assert!(glassy.wgsl.contains("energy_compensation("), "f0 of diamond is 0.17");
+}
+
+/// The stated bound, by quadrature: the greatest f0 (f0 a + b) (1 - E)/E over n.v and roughness at the largest f0.
+#[test]
+fn compensation_bound_holds() {
+    let f0 = f64::from(COMPENSATION_MIN_F0);
+    let mut greatest = 0.0_f64;
+    for r in 1..=20 {
+        for v in 1..=20 {
+            let (a, b) = dfg(f64::from(v) / 20.0, (f64::from(r) / 20.0).powi(2));
+            let albedo = a + b;
+            greatest = greatest.max(f0 * (f0 * a + b) * (1.0 - albedo) / albedo);
+        }
+    }
+    println!("greatest change: {greatest:.5} of the light of a uniform environment");
+    assert!(greatest < f64::from(COMPENSATION_BOUND), "{greatest}");
+    assert!(greatest > 0.5 * f64::from(COMPENSATION_BOUND), "the bound is loose: {greatest}");
+}
+
+/// Split-sum terms of GGX with height-correlated Smith and Schlick, by importance sampling on a grid (Karis 2013).
+fn dfg(n_dot_v: f64, alpha: f64) -> (f64, f64) {
+    const N: u32 = 64;
+    let v = [(1.0 - n_dot_v * n_dot_v).sqrt(), 0.0, n_dot_v];
+    let (mut a, mut b) = (0.0, 0.0);
+    let lambda = |c: f64| (alpha * alpha + (1.0 - alpha * alpha) * c * c).sqrt();
+    for i in 0..N {
+        for j in 0..N {
+            let (u1, u2) = ((f64::from(i) + 0.5) / f64::from(N), (f64::from(j) + 0.5) / f64::from(N));
+            let cos2 = (1.0 - u1) / (1.0 + (alpha * alpha - 1.0) * u1);
+            let (cos, sin) = (cos2.sqrt(), (1.0 - cos2).max(0.0).sqrt());
+            let phi = std::f64::consts::TAU * u2;
+            let h = [sin * phi.cos(), sin * phi.sin(), cos];
+            let v_dot_h = v[0] * h[0] + v[1] * h[1] + v[2] * h[2];
+            let n_dot_l = 2.0 * v_dot_h * h[2] - v[2];
+            if n_dot_l > 0.0 && v_dot_h > 0.0 {
+                let visibility = 0.5 / (n_dot_l * lambda(n_dot_v) + n_dot_v * lambda(n_dot_l));
+                let weight = 4.0 * visibility * n_dot_l * v_dot_h / h[2];
+                let fresnel = (1.0 - v_dot_h).powi(5);
+                a += (1.0 - fresnel) * weight;
+                b += fresnel * weight;
+            }
+        }
+    }
+    let count = f64::from(N * N);
+    (a / count, b / count)
+}

@@ -1,0 +1,146 @@
+//! What stands in which stage: height, opacity, sides, tangents, contexts.
+
+use halfvector_graph::document::AlphaMode;
+use halfvector_graph::method::Methods;
+use halfvector_graph::needs::{Needs, ShaderOutput, ToneMap};
+
+use super::{environment, exported, maps, material, methods, nothing, sun};
+use crate::Shader;
+
+fn part<'s>(shader: &'s Shader, entry: &str) -> &'s str {
+    let start = shader.wgsl.find(&format!("fn {entry}")).expect("the entry point");
+    let end = shader.wgsl[start..].find("\n}").expect("its end");
+    &shader.wgsl[start..start + end]
+}
+
+fn displaced() -> halfvector_graph::document::Document {
+    material(
+        "",
+        r#""relief": {"node": "textures/image", "values": {"image": {"file": "h.png", "color_space": "linear"}}},
+           "height": {"node": "textures/height"}"#,
+        r#"{"from": "relief.r", "to": "height.value"}, {"from": "height.out", "to": "surface.height"}"#,
+    )
+}
+
+#[test]
+fn height_moves_the_vertex_and_tilts_the_normal() {
+    let shader = exported(&displaced(), &sun());
+    let (vertex, fragment) = (part(&shader, "vs_main"), part(&shader, "fs_main"));
+    assert!(vertex.contains("displaced(world_position, world_normal, "), "{vertex}");
+    assert!(vertex.contains("node_textures_image_vertex("), "no implicit derivative in the vertex stage\n{vertex}");
+    assert!(fragment.contains("normal_from_height(dpdx(in.surface_position), dpdy(in.surface_position)"), "{fragment}");
+    let image = shader.reflection.bindings.iter().find(|b| b.name.contains("texture")).expect("the map");
+    assert!(image.vertex && image.fragment);
+
+    let needs = Needs { methods: methods(&[("height_normals", "report")]), ..sun() };
+    let report = exported(&displaced(), &needs);
+    assert!(!part(&report, "fs_main").contains("normal_from_height"));
+    assert!(!report.wgsl.contains("surface_position"));
+    assert!(report.dropped.iter().any(|d| d.what.contains("normals of the displaced")));
+}
+
+#[test]
+fn a_constant_height_needs_no_derivatives() {
+    let shader = exported(&material(r#""height": 0.5"#, "", ""), &sun());
+    assert!(part(&shader, "vs_main").contains("displaced(world_position, world_normal, 0.5)"));
+    assert!(!shader.wgsl.contains("dpdx"));
+    assert!(!exported(&material("", "", ""), &sun()).wgsl.contains("displaced("));
+}
+
+#[test]
+fn opacity_by_mode() {
+    let of = |mode: AlphaMode, values: &str| {
+        let mut document = material(values, "", "");
+        document.surface.alpha_mode = mode;
+        exported(&document, &sun())
+    };
+    let half = r#""opacity": 0.5"#;
+    assert!(part(&of(AlphaMode::Mask, half), "fs_main").contains("discard"));
+    let blend = of(AlphaMode::Blend, half);
+    assert!(part(&blend, "fs_main").contains("vec4f(radiance * opacity, opacity)"));
+    let opaque = of(AlphaMode::Opaque, half);
+    assert!(part(&opaque, "fs_main").contains("vec4f(radiance, 1.0)"));
+    assert!(!part(&of(AlphaMode::Mask, ""), "fs_main").contains("discard"), "opacity 1 is never below the cutoff");
+}
+
+/// Samples with implicit derivatives come before the discard, which makes control flow non-uniform.
+#[test]
+fn discard_comes_after_the_samples() {
+    let mut document = maps();
+    document.surface.alpha_mode = AlphaMode::Mask;
+    let link =
+        r#"{"halfvector": 1, "name": "", "nodes": {}, "links": [{"from": "albedo.alpha", "to": "surface.opacity"}]}"#;
+    document.links.extend(super::document(link).links);
+    let shader = exported(&document, &environment());
+    let fragment = part(&shader, "fs_main");
+    let discard = fragment.find("discard").expect("a discard");
+    let last = fragment.rfind("node_textures_image").expect("samples");
+    assert!(last < discard, "{fragment}");
+}
+
+#[test]
+fn both_sides_turn_the_shading_normal() {
+    let mut document = material("", "", "");
+    document.surface.double_sided = true;
+    let shader = exported(&document, &sun());
+    assert!(part(&shader, "fs_main").contains("select(-world_normal, world_normal, front_facing)"));
+    assert!(!exported(&material("", "", ""), &sun()).wgsl.contains("front_facing"));
+}
+
+#[test]
+fn only_tbn_reads_tangents() {
+    let with = |method: &str| {
+        let needs = Needs { methods: methods(&[("normal", method)]), ..environment() };
+        exported(&maps(), &needs)
+    };
+    let has_tangent = |shader: &Shader| shader.reflection.vertex_inputs.iter().any(|i| i.name == "tangent");
+    assert!(has_tangent(&with("tbn")));
+    for method in ["rotation_report", "rotation_fixed"] {
+        let shader = with(method);
+        assert!(!has_tangent(&shader) && shader.wgsl.contains(&format!("normal_{method}(")), "{method}");
+    }
+}
+
+#[test]
+fn methods_exchange_functions() {
+    let document = material(r#""metallic": 0.5"#, "", "");
+    let chosen =
+        [("v", "separable"), ("fresnel", "exact"), ("diffuse", "burley"), ("dfg", "karis"), ("irradiance", "sh2")];
+    let needs = Needs { methods: methods(&chosen), directional_lights: 1, ..environment() };
+    let text = exported(&document, &needs).wgsl;
+    for name in ["v_smith_ggx_separable(", "f_exact(", "diffuse_burley(", "dfg_karis(", "irradiance_sh2("] {
+        assert!(text.contains(name), "{name}");
+    }
+    for name in ["v_smith_ggx_correlated", "f_schlick", "diffuse_lambert", "dfg_from_table", "irradiance_over_pi:"] {
+        assert!(!text.contains(name), "{name}");
+    }
+}
+
+#[test]
+fn the_reports_forms() {
+    let needs = Needs { methods: Methods::report(), output: ShaderOutput::Display(ToneMap::None), ..environment() };
+    let text = exported(&material(r#""metallic": 0.5"#, "", ""), &needs).wgsl;
+    assert!(text.contains("gamma_from_linear(environment_sample(prefiltered_radiance"), "{text}");
+    assert!(text.contains("lod_report(1.0, view.environment_levels)"), "{text}");
+    assert!(!text.contains("srgb_from_linear("), "the PNG is written without a second encoding");
+    assert!(!text.contains("energy_compensation("));
+}
+
+#[test]
+fn lights_are_loops_only_when_there_are_several() {
+    let one = exported(&material("", "", ""), &sun()).wgsl;
+    assert!(!one.contains("for (") && one.contains("directional: DirectionalLight,"));
+    let needs = Needs { directional_lights: 1, point_lights: 2, spot_lights: 3, ..nothing() };
+    let several = exported(&material("", "", ""), &needs).wgsl;
+    assert_eq!(several.matches("for (").count(), 2, "{several}");
+    assert!(several.contains("point: array<PointLight, 2>") && several.contains("spot: array<SpotLight, 3>"));
+}
+
+#[test]
+fn nothing_to_see_is_nothing_to_compute() {
+    let shader = exported(&material("", "", ""), &nothing());
+    assert!(part(&shader, "fs_main").contains("vec3f(0.0)"));
+    let names: Vec<&str> = shader.reflection.bindings.iter().map(|b| b.name.as_str()).collect();
+    assert_eq!(names, ["view", "object"]);
+    assert_eq!(shader.reflection.vertex_inputs.len(), 1);
+}

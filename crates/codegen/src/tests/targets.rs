@@ -1,0 +1,115 @@
+//! Every target, before the judges that are installed.
+
+use std::path::Path;
+use std::process::Command;
+
+use halfvector_graph::document::{AlphaMode, Document};
+use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput, ToneMap};
+
+use super::{environment, exported, maps, material, nothing, sun};
+use crate::target::{OutputFile, TARGETS, export};
+
+fn cases() -> Vec<(&'static str, Document, Needs)> {
+    let everything = Needs {
+        directional_lights: 2,
+        point_lights: 1,
+        spot_lights: 3,
+        environment: Some(EnvironmentNeeds { rotated: true }),
+        output: ShaderOutput::Display(ToneMap::Agx),
+        ..nothing()
+    };
+    let mut cutout = maps();
+    cutout.surface.alpha_mode = AlphaMode::Mask;
+    cutout.surface.double_sided = true;
+    // The same picture, wrapped in two ways: GLSL needs two joined samplers.
+    let twice = material(
+        "",
+        r#""one": {"node": "textures/image", "values": {"image": {"file": "a.png", "color_space": "linear"}}},
+           "two": {"node": "textures/image", "values": {"image": {"file": "a.png", "color_space": "linear", "wrap_u": "clamp"}}}"#,
+        r#"{"from": "one.color", "to": "surface.base_color"}, {"from": "two.r", "to": "surface.perceptual_roughness"},
+           {"from": "two.g", "to": "surface.height"}"#,
+    );
+    vec![
+        ("plain", material("", "", ""), sun()),
+        ("maps", maps(), environment()),
+        ("cutout", cutout, everything),
+        ("twice", twice, sun()),
+    ]
+}
+
+/// Runs a judge on a file; `None` when it is not installed.
+fn accepts(judge: &str, arguments: &[&str], file: &Path) -> Option<Result<(), String>> {
+    let output = Command::new(judge).args(arguments).arg(file).output().ok()?;
+    let words = || format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    Some(if output.status.success() { Ok(()) } else { Err(words()) })
+}
+
+fn judge(file: &OutputFile, folder: &Path) {
+    let path = folder.join(&file.name);
+    std::fs::write(&path, &file.bytes).expect("a file in the temporary folder");
+    let verdicts = match file.name.rsplit_once('.').map_or("", |(_, ending)| ending) {
+        "spv" => vec![accepts("spirv-val", &["--target-env", "vulkan1.0"], &path)],
+        "vert" | "frag" => vec![accepts("glslangValidator", &[], &path)],
+        "hlsl" => [("vert", "vs_main"), ("frag", "fs_main")]
+            .iter()
+            .map(|(stage, entry)| {
+                let output = path.with_extension("out");
+                let output = output.to_string_lossy();
+                accepts("glslangValidator", &["-D", "-V", "-S", stage, "-e", entry, "-o", &output], &path)
+            })
+            .collect(),
+        _ => vec![],
+    };
+    for verdict in verdicts {
+        match verdict {
+            None => println!("skipped: no judge for {} (Debian: glslang-tools, spirv-tools)", file.name),
+            Some(Ok(())) => {}
+            Some(Err(words)) => panic!("{}: {words}\n{}", file.name, String::from_utf8_lossy(&file.bytes)),
+        }
+    }
+}
+
+#[test]
+fn every_target_is_accepted() {
+    for (name, document, needs) in cases() {
+        let shader = exported(&document, &needs);
+        for target in TARGETS {
+            let folder =
+                std::env::temp_dir().join(format!("halfvector-targets-{}-{name}-{}", std::process::id(), target.name));
+            std::fs::create_dir_all(&folder).expect("a temporary folder");
+            let files = export(&shader, target, name).unwrap_or_else(|e| panic!("{name} as {}: {e}", target.name));
+            for file in &files {
+                judge(file, &folder);
+            }
+            let json = files.iter().find(|f| f.name == format!("{name}.json")).expect("a reflection");
+            let value: serde_json::Value = serde_json::from_slice(&json.bytes).expect("JSON");
+            assert_eq!(value["bindings"].as_array().map(Vec::len), Some(shader.reflection.bindings.len()));
+            let _ = std::fs::remove_dir_all(&folder);
+        }
+    }
+}
+
+#[test]
+fn file_names_are_the_contracts() {
+    let shader = exported(&material("", "", ""), &sun());
+    let names = |target: &str| -> Vec<String> {
+        let target = crate::target::target(target).expect("a target of the list");
+        export(&shader, target, "m").expect("files").into_iter().map(|f| f.name).collect()
+    };
+    assert_eq!(names("wgsl"), ["m.wgsl", "m.json"]);
+    assert_eq!(names("glsl"), ["m.vert", "m.frag", "m.json"]);
+    assert_eq!(names("glsl-es"), ["m.vert", "m.frag", "m.json"]);
+    assert_eq!(names("hlsl"), ["m.hlsl", "m.json"]);
+    assert_eq!(names("msl"), ["m.metal", "m.json"]);
+    assert_eq!(names("spirv"), ["m.vert.spv", "m.frag.spv", "m.json"]);
+}
+
+/// A stage holds only its own: the vertex stage of a lit material knows no lights.
+#[test]
+fn stages_hold_only_their_own() {
+    let shader = exported(&maps(), &environment());
+    let target = crate::target::target("glsl").expect("a target of the list");
+    let files = export(&shader, target, "m").expect("files");
+    let vertex = String::from_utf8_lossy(&files[0].bytes).into_owned();
+    assert!(!vertex.contains("d_ggx") && !vertex.contains("sampler"), "{vertex}");
+}
