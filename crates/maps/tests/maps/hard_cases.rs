@@ -354,6 +354,6 @@ fn near_degenerate_uv() {
 fn one_texel_mip() {
     let image = Image::new(1, 1, halfvector_maps::Channels::Rgba, Texels::U8(vec![[1, 2, 3, 0]])).unwrap();
     for kind in [MapKind::Color, MapKind::Normal, MapKind::Data] {
-        assert_eq!(mip_chain(&image, ColorSpace::Srgb, kind), [image.clone()]);
+        assert_eq!(mip_chain(&image, ColorSpace::Srgb, kind), std::slice::from_ref(&image));
     }
 }

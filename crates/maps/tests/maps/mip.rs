@@ -155,10 +155,12 @@ fn formats_agree() {
     let as_f32 = codes.iter().map(|t| t.map(|c| f32::from(c) / 255.0)).collect();
     let chains = [Texels::U8(codes), Texels::U16(as_u16), Texels::F32(as_f32)]
         .map(|texels| mip_chain(&image(21, 13, Channels::Rgba, texels), ColorSpace::Srgb, MapKind::Color));
-    for level in 0..chains[0].len() {
-        for y in 0..chains[0][level].height() {
-            for x in 0..chains[0][level].width() {
-                let [a, b, c] = [0, 1, 2].map(|i| chains[i][level].texel(x, y));
+    let [u8s, u16s, f32s] = &chains;
+    assert_eq!((u8s.len(), u16s.len(), f32s.len()), (5, 5, 5));
+    for ((a, b), c) in u8s.iter().zip(u16s).zip(f32s) {
+        for y in 0..a.height() {
+            for x in 0..a.width() {
+                let [a, b, c] = [a, b, c].map(|level| level.texel(x, y));
                 for k in 0..4 {
                     assert!((a[k] - c[k]).abs() <= 0.5 / 255.0 + 1e-5 && (b[k] - c[k]).abs() <= 0.5 / 65535.0 + 1e-5);
                 }
