@@ -1,1 +1,33 @@
-//! Image-based lighting: environment files, cubes, prefiltered radiance, irradiance, DFG table.
+//! Image-based lighting: any environment in, light that a shader can look up out.
+//!
+//! * [`load()`] reads Radiance `.hdr`, OpenEXR, HDRE and ordinary images into a [`LoadedEnvironment`], repaired and counted;
+//!   [`builtin`] makes three environments of our own.
+//! * [`bake()`] turns one into a [`BakedEnvironment`]: a cube of radiance prefiltered for a rising roughness per level,
+//!   diffuse irradiance as a cube and as spherical harmonics. No random numbers: the same input gives the same bytes.
+//! * [`dfg_table`] is the split sum's other factor.
+//! * [`environment`] reads all of it; its functions are twins of `shaders/ibl/environment.wgsl`.
+//!
+//! Radiance is linear Rec. 709. Right-handed, +Y up. Equirectangular maps: v = acos(y) / pi, u = atan2(z, x) / (2 pi) + 1/2.
+//! Cubes: faces +X -X +Y -Y +Z -Z by the GPU's face rules. The crate knows no path, no GPU and no node graph.
+
+mod bake;
+pub mod builtin;
+mod cube;
+mod dfg;
+pub mod environment;
+mod equirect;
+mod harmonics;
+mod kernel;
+mod load;
+mod lobe;
+mod repair;
+mod resample;
+
+pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, bake};
+pub use builtin::{sky, studio, white};
+pub use cube::{Cube, direction_from_face, face_from_direction, texel_solid_angle};
+pub use dfg::{DfgTable, Visibility, dfg, dfg_table, dfg_table_with};
+pub use equirect::{Equirect, direction_from_equirect, equirect_from_direction};
+pub use load::{Format, Limits, LoadError, LoadedEnvironment, Source, StoredLevels, load, load_within};
+pub use repair::{MAX_RADIANCE, Repairs, repair};
+pub use resample::{cube_from_equirect, equirect_from_cube};

@@ -1,0 +1,208 @@
+//! From a loaded environment to what a shader reads: prefiltered levels, irradiance, harmonics.
+
+use crate::cube::Cube;
+use crate::equirect::Equirect;
+use crate::harmonics::{MAX_BAND, Spectrum};
+use crate::kernel::{cosine_kernel, ggx_band, ggx_grid_rows, ggx_kernel};
+use crate::load::{LoadedEnvironment, Source};
+use crate::lobe::narrow_lobe;
+use crate::resample::{cube_from_equirect, equirect_from_cube};
+use halfvector_brdf::ggx::alpha_from_perceptual_roughness;
+use std::borrow::Cow;
+
+/// The largest face of level 0.
+pub const MAX_SIZE: usize = 8192;
+
+/// Texels along an edge of the irradiance cube by default: linear interpolation between them is within 0.1 %.
+const IRRADIANCE_SIZE: usize = 64;
+
+/// The smallest face that the default number of levels ends with.
+const SMALLEST_FACE: usize = 8;
+
+/// Which roughness each level is prefiltered for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum LevelMap {
+    /// Level i of n: perceptual roughness i / (n - 1); read with `lod_linear`.
+    #[default]
+    Linear,
+    /// The report's six levels at roughness i / 5, read with `lod_report`. A file that stores six levels is used as it is.
+    Report,
+    /// The perceptual roughness of each level, 0..1. The first level is the environment itself, whatever its number.
+    Listed(Vec<f32>),
+}
+
+/// How to bake.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BakeOptions {
+    /// Texels along an edge of level 0, held in 1..=[`MAX_SIZE`]; each further level has half as many, at least 1.
+    pub size: usize,
+    /// Number of levels of [`LevelMap::Linear`], held in 1..=14. `None`: as many as leave 8 texels in the last.
+    pub levels: Option<usize>,
+    /// Which roughness each level is prefiltered for.
+    pub level_map: LevelMap,
+    /// The report's decoding: L / (1 + L) on radiance of high dynamic range; ordinary images are left as they are.
+    pub decode_report: bool,
+    /// Texels along an edge of the irradiance cube, held in 1..=512.
+    pub irradiance_size: usize,
+}
+
+impl Default for BakeOptions {
+    fn default() -> Self {
+        BakeOptions {
+            size: 512,
+            levels: None,
+            level_map: LevelMap::Linear,
+            decode_report: false,
+            irradiance_size: IRRADIANCE_SIZE,
+        }
+    }
+}
+
+/// An environment ready to be looked up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BakedEnvironment {
+    /// Prefiltered radiance, level by level; level i has faces of `size >> i` texels, at least 1.
+    pub radiance: Vec<Cube>,
+    /// The perceptual roughness that each level is prefiltered for.
+    pub roughness: Vec<f32>,
+    /// Diffuse irradiance over pi: the radiance that a white Lambert surface facing each direction sends out.
+    pub irradiance_over_pi: Cube,
+    /// The same as nine coefficients of [`irradiance_sh2`](crate::environment::irradiance_sh2), constants folded in.
+    pub irradiance_sh: [[f32; 3]; 9],
+}
+
+/// Bakes an environment.
+///
+/// Level 0 is the environment resampled, and the others are exact GGX convolutions of the map taken as constant within
+/// each texel (n = v = r), to about 1e-3, through spherical harmonics. The time does not depend on what the picture shows.
+pub fn bake(environment: &LoadedEnvironment, options: &BakeOptions) -> BakedEnvironment {
+    let size = options.size.clamp(1, MAX_SIZE);
+    let source = decoded(environment, options.decode_report);
+    let roughness = level_roughness(options, size);
+    let face = |level: usize| (size >> level).max(1);
+
+    let stored = match &*source {
+        Source::Levels(stored) if options.level_map == LevelMap::Report => Some(stored),
+        _ => None,
+    };
+    let (map, level_0) = match &*source {
+        Source::Equirect(map) => (Cow::Borrowed(map), cube_from_equirect(map, size)),
+        Source::Levels(stored) => (Cow::Owned(equirect_from_cube(&stored.levels[0])), stored.levels[0].resized(size)),
+    };
+
+    let alphas: Vec<f64> = roughness.iter().map(|&r| alpha_from_perceptual_roughness(f64::from(r))).collect();
+    // Only lobes that the harmonics resolve count for how many are needed.
+    let needed = if stored.is_some() { &[] } else { &alphas[1..] };
+    let band = needed.iter().map(|&a| ggx_band(a)).filter(|&b| b <= MAX_BAND).max().unwrap_or(0).max(ggx_band(1.0));
+    let spectrum = Spectrum::from_equirect(&map, band);
+
+    let radiance = match stored {
+        Some(stored) => stored.levels.iter().enumerate().map(|(i, level)| level.resized(face(i))).collect(),
+        None => {
+            let mut levels = vec![level_0];
+            for (i, &alpha) in alphas.iter().enumerate().skip(1) {
+                levels.push(prefiltered(&spectrum, &levels[0], alpha, face(i), band));
+            }
+            levels
+        }
+    };
+    let irradiance = spectrum.synthesized(&cosine_kernel(band), ggx_grid_rows(1.0));
+    BakedEnvironment {
+        radiance,
+        roughness,
+        irradiance_over_pi: Cube::from_fn(options.irradiance_size.clamp(1, 512), |dir| irradiance.sample(dir)),
+        irradiance_sh: irradiance_coefficients(&spectrum),
+    }
+}
+
+fn prefiltered(spectrum: &Spectrum, level_0: &Cube, alpha: f64, size: usize, band: usize) -> Cube {
+    if alpha <= 0.0 {
+        level_0.resized(size)
+    } else if ggx_band(alpha) > MAX_BAND {
+        narrow_lobe(level_0, alpha, size)
+    } else {
+        let grid = spectrum.synthesized(&ggx_kernel(alpha, band), ggx_grid_rows(alpha));
+        Cube::from_fn(size, |dir| grid.sample(dir))
+    }
+}
+
+/// The roughness of each level.
+fn level_roughness(options: &BakeOptions, size: usize) -> Vec<f32> {
+    let even = |levels: usize| (0..levels).map(|i| i as f32 / (levels.max(2) - 1) as f32).collect();
+    match &options.level_map {
+        LevelMap::Linear => {
+            let halvings = (size / SMALLEST_FACE).max(1).ilog2() as usize;
+            even(options.levels.unwrap_or(halvings + 1).clamp(1, 14))
+        }
+        LevelMap::Report => even(6),
+        LevelMap::Listed(list) if list.is_empty() => vec![0.0],
+        LevelMap::Listed(list) => list.iter().take(14).map(|r| if *r > 0.0 { r.min(1.0) } else { 0.0 }).collect(),
+    }
+}
+
+/// The source as the report decodes it, or as it is.
+fn decoded(environment: &LoadedEnvironment, report: bool) -> Cow<'_, Source> {
+    if !report || environment.low_dynamic_range {
+        return Cow::Borrowed(&environment.source);
+    }
+    let compress = |texels: &mut Vec<[f32; 3]>| {
+        for x in texels.iter_mut().flatten() {
+            *x /= 1.0 + *x;
+        }
+    };
+    let mut source = environment.source.clone();
+    match &mut source {
+        Source::Equirect(map) => compress(&mut map.pixels),
+        Source::Levels(stored) => stored.levels.iter_mut().for_each(|level| compress(&mut level.texels)),
+    }
+    Cow::Owned(source)
+}
+
+/// Degree 0 to 2, from polar angles about +Y to the polynomials of `irradiance_sh2`.
+///
+/// With c_lm = integral of L P_lm exp(-i m phi), phi from +X towards +Z, the real harmonics are
+/// re c_l0 P_l0 + 2 re c_lm P_lm cos(m phi) - 2 im c_lm P_lm sin(m phi), and
+/// 3y^2 - 1 = -(3z^2 - 1) / 2 - 3 (x^2 - y^2) / 2, x^2 - z^2 = -(3z^2 - 1) / 2 + (x^2 - y^2) / 2 on the unit sphere.
+fn irradiance_coefficients(spectrum: &Spectrum) -> [[f32; 3]; 9] {
+    use std::f64::consts::PI;
+    // P_00, P_10 / y, P_11 / sin, P_20 / (3y^2 - 1), P_21 / (y sin), P_22 / sin^2.
+    let [n00, n10, n11] = [1.0, 3.0, 1.5].map(|x: f64| (x / (4.0 * PI)).sqrt());
+    let [n20, n21, n22] = [1.25, 7.5, 1.875].map(|x: f64| (x / (4.0 * PI)).sqrt());
+    let [a1, a2] = [2.0 / 3.0, 0.25];
+    let mut coefficients = [[0.0; 3]; 9];
+    for channel in 0..3 {
+        let c = |l: usize, m: usize| spectrum.coefficient(l, m)[channel];
+        let about_y = a2 * n20 * c(2, 0)[0];
+        let x2_z2 = 2.0 * a2 * n22 * c(2, 2)[0];
+        let values = [
+            n00 * c(0, 0)[0],
+            a1 * n10 * c(1, 0)[0],
+            -2.0 * a1 * n11 * c(1, 1)[1],
+            2.0 * a1 * n11 * c(1, 1)[0],
+            2.0 * a2 * n21 * c(2, 1)[0],
+            -2.0 * a2 * n21 * c(2, 1)[1],
+            -0.5 * about_y - 0.5 * x2_z2,
+            // sin^2 sin(2 phi) = 2 x z.
+            -4.0 * a2 * n22 * c(2, 2)[1],
+            -1.5 * about_y + 0.5 * x2_z2,
+        ];
+        for (k, value) in values.into_iter().enumerate() {
+            coefficients[k][channel] = value as f32;
+        }
+    }
+    coefficients
+}
+
+impl BakedEnvironment {
+    /// [`Self::irradiance_sh`] as a shader's uniform holds it: four numbers each, the fourth 0.
+    pub fn irradiance_sh_padded(&self) -> [[f32; 4]; 9] {
+        self.irradiance_sh.map(|[r, g, b]| [r, g, b, 0.0])
+    }
+}
+
+impl From<Equirect> for LoadedEnvironment {
+    /// An environment that was computed rather than read: repaired like one that was read.
+    fn from(map: Equirect) -> Self {
+        LoadedEnvironment::new(Source::Equirect(map), false)
+    }
+}

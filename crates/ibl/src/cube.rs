@@ -1,0 +1,170 @@
+//! Cube maps: face rules, lookups without seams, halving.
+//!
+//! It knows nothing of lobes or files.
+
+use rayon::prelude::*;
+
+/// A cube map of linear Rec. 709 values.
+///
+/// Faces in the order +X -X +Y -Y +Z -Z, rows from the top, laid out as GPUs read them: sampling with a direction
+/// in world space returns what arrives from there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cube {
+    /// Texels along an edge, at least 1.
+    pub size: usize,
+    /// `6 * size * size` values: face by face, row by row.
+    pub texels: Vec<[f32; 3]>,
+}
+
+/// The direction, not normalised (its largest component is 1), through the point (s, t) of a face; s and t in -1..1, s to
+/// the right and t down.
+pub fn direction_from_face(face: usize, s: f64, t: f64) -> [f64; 3] {
+    match face {
+        0 => [1.0, -t, -s],
+        1 => [-1.0, -t, s],
+        2 => [s, 1.0, t],
+        3 => [s, -1.0, -t],
+        4 => [s, -t, 1.0],
+        _ => [-s, -t, -1.0],
+    }
+}
+
+/// The face that a direction meets, and where: (face, s, t) with s and t in -1..1.
+pub fn face_from_direction(dir: [f64; 3]) -> (usize, f64, f64) {
+    let [x, y, z] = dir;
+    let [ax, ay, az] = dir.map(f64::abs);
+    // The floor keeps the zero vector finite.
+    if ax >= ay && ax >= az {
+        let m = ax.max(f64::MIN_POSITIVE);
+        if x >= 0.0 { (0, -z / m, -y / m) } else { (1, z / m, -y / m) }
+    } else if ay >= az {
+        if y >= 0.0 { (2, x / ay, z / ay) } else { (3, x / ay, -z / ay) }
+    } else if z >= 0.0 {
+        (4, x / az, -y / az)
+    } else {
+        (5, -x / az, -y / az)
+    }
+}
+
+/// The solid angle, in sr, of a texel at column i, row j of a face of `size` texels.
+///
+/// The solid angle between the face's centre and the point (s, t) is atan(s t / sqrt(1 + s^2 + t^2)).
+pub fn texel_solid_angle(size: usize, i: usize, j: usize) -> f64 {
+    let corner = |i: usize, j: usize| {
+        let (s, t) = (2.0 * i as f64 / size as f64 - 1.0, 2.0 * j as f64 / size as f64 - 1.0);
+        (s * t).atan2((1.0 + s * s + t * t).sqrt())
+    };
+    corner(i, j) - corner(i + 1, j) - corner(i, j + 1) + corner(i + 1, j + 1)
+}
+
+impl Cube {
+    /// A cube whose texels are `value(direction)` at the texel centres; the direction is unit.
+    pub fn from_fn(size: usize, value: impl Fn([f64; 3]) -> [f32; 3] + Sync) -> Cube {
+        Cube::from_texels(size, |face, i, j| value(unit(texel_direction(size, face, i as f64, j as f64))))
+    }
+
+    /// A cube whose texels are `value(face, column, row)`, computed row by row in parallel.
+    pub(crate) fn from_texels(size: usize, value: impl Fn(usize, usize, usize) -> [f32; 3] + Sync) -> Cube {
+        let size = size.max(1);
+        let mut texels = vec![[0.0; 3]; 6 * size * size];
+        texels.par_chunks_mut(size).enumerate().for_each(|(line, row)| {
+            let (face, j) = (line / size, line % size);
+            for (i, texel) in row.iter_mut().enumerate() {
+                *texel = value(face, i, j);
+            }
+        });
+        Cube { size, texels }
+    }
+
+    /// The value in a direction, interpolated bilinearly, across edges too.
+    pub fn sample(&self, dir: [f64; 3]) -> [f32; 3] {
+        let (face, s, t) = face_from_direction(dir);
+        let (x, y) = ((s + 1.0) * 0.5 * self.size as f64 - 0.5, (t + 1.0) * 0.5 * self.size as f64 - 0.5);
+        let (i, j) = (x.floor(), y.floor());
+        let (wx, wy) = ((x - i) as f32, (y - j) as f32);
+        let (i, j) = (i as isize, j as isize);
+        let [a, b, c, d] = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| self.texel(face, i + dx, j + dy));
+        std::array::from_fn(|k| {
+            let above = a[k] + (b[k] - a[k]) * wx;
+            let below = c[k] + (d[k] - c[k]) * wx;
+            above + (below - above) * wy
+        })
+    }
+
+    /// The texel of a face, whose column or row may be one outside: then it is the neighbouring face's. At a corner of
+    /// the cube, where there is no fourth texel, it is the mean of the three.
+    fn texel(&self, face: usize, i: isize, j: isize) -> [f32; 3] {
+        let last = self.size as isize - 1;
+        let (ci, cj) = (i.clamp(0, last), j.clamp(0, last));
+        match (i == ci, j == cj) {
+            (true, true) => self.at(face, i as usize, j as usize),
+            (false, false) => {
+                let three = [self.texel(face, ci, j), self.texel(face, i, cj), self.at(face, ci as usize, cj as usize)];
+                std::array::from_fn(|k| (three[0][k] + three[1][k] + three[2][k]) / 3.0)
+            }
+            _ => {
+                // The point on the edge itself, a hair outside, has the same place along the edge on both faces.
+                let place = |index: isize, inside: isize| {
+                    if index == inside {
+                        (2.0 * index as f64 + 1.0) / self.size as f64 - 1.0
+                    } else {
+                        (1.0 + 1e-9) * if index < 0 { -1.0 } else { 1.0 }
+                    }
+                };
+                let (face, s, t) = face_from_direction(direction_from_face(face, place(i, ci), place(j, cj)));
+                let index = |x: f64| (((x + 1.0) * 0.5 * self.size as f64) as usize).min(self.size - 1);
+                self.at(face, index(s), index(t))
+            }
+        }
+    }
+
+    fn at(&self, face: usize, i: usize, j: usize) -> [f32; 3] {
+        self.texels[(face * self.size + j) * self.size + i]
+    }
+
+    /// Half the resolution (rounded down, at least 1): each texel the mean of the ones below it by solid angle.
+    /// An odd size is read at the new texels' centres with bilinear interpolation.
+    pub fn halved(&self) -> Cube {
+        let size = (self.size / 2).max(1);
+        if self.size % 2 == 1 {
+            return Cube::from_fn(size, |dir| self.sample(dir));
+        }
+        Cube::from_texels(size, |face, i, j| {
+            let mut sum = [0.0f64; 3];
+            let mut area = 0.0;
+            for (i, j) in [(2 * i, 2 * j), (2 * i + 1, 2 * j), (2 * i, 2 * j + 1), (2 * i + 1, 2 * j + 1)] {
+                let weight = texel_solid_angle(self.size, i, j);
+                let texel = self.at(face, i, j);
+                area += weight;
+                for k in 0..3 {
+                    sum[k] += weight * f64::from(texel[k]);
+                }
+            }
+            sum.map(|x| (x / area) as f32)
+        })
+    }
+
+    /// The cube with another number of texels along an edge: halved while it is at least twice as large, then read at the
+    /// new texels' centres. The same size gives the same texels.
+    pub fn resized(&self, size: usize) -> Cube {
+        let size = size.max(1);
+        if size == self.size {
+            return self.clone();
+        }
+        if self.size >= 2 * size {
+            return self.halved().resized(size);
+        }
+        Cube::from_fn(size, |dir| self.sample(dir))
+    }
+}
+
+/// The direction, not normalised, through a point of a face given in texels; whole numbers are texel centres.
+pub(crate) fn texel_direction(size: usize, face: usize, i: f64, j: f64) -> [f64; 3] {
+    direction_from_face(face, (2.0 * i + 1.0) / size as f64 - 1.0, (2.0 * j + 1.0) / size as f64 - 1.0)
+}
+
+/// The unit vector along a vector that is not zero.
+pub(crate) fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    v.map(|x| x / length)
+}

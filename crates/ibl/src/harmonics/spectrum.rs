@@ -1,0 +1,334 @@
+//! From an equirectangular map to its coefficients, and from scaled coefficients to a map.
+
+use super::fourier::{Complex, Fourier};
+use super::gauss_legendre;
+use super::legendre::{LANES, Lanes, Order};
+use crate::equirect::{Equirect, equirect_from_direction};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// The highest degree that [`Spectrum::from_equirect`] takes.
+pub(crate) const MAX_BAND: usize = 1023;
+
+/// The largest map that is analysed as it is; larger ones are averaged down, which changes nothing within [`MAX_BAND`].
+const MAX_COLUMNS: usize = 2048;
+const MAX_ROWS: usize = 1024;
+
+/// Real and imaginary part of red, green and blue.
+type Channels = [f64; 6];
+
+/// The spherical-harmonic coefficients of an environment: of f(theta, phi) = sum over l and m of c_lm P_lm(cos theta)
+/// exp(i m phi), with theta from +Y and phi = atan2(z, x). f is real, so m >= 0 is enough.
+pub(crate) struct Spectrum {
+    /// `orders[m][l - m]`.
+    orders: Vec<Vec<Channels>>,
+}
+
+/// Eight latitudes of the northern half (cos > 0), each with the row it lies in and that row's mirror image.
+struct NodeBlock {
+    cos: Lanes,
+    sin: Lanes,
+    weight: Lanes,
+    north: [usize; LANES],
+    south: [usize; LANES],
+}
+
+impl Spectrum {
+    /// The coefficients up to degree `band` of a map taken as constant within each texel, each texel with its exact area.
+    pub(crate) fn from_equirect(map: &Equirect, band: usize) -> Spectrum {
+        let band = band.min(MAX_BAND);
+        let (width, height) = (analysed_columns(map.width), map.height.min(MAX_ROWS));
+        let reduced;
+        let map = if (width, height) == (map.width, map.height) {
+            map
+        } else {
+            reduced = map.area_resampled(width, height);
+            &reduced
+        };
+        let rows = row_spectra(map, band);
+        let blocks = node_blocks(height, band);
+        let orders = (0..=band)
+            .into_par_iter()
+            .map(|m| {
+                let order = Order::new(m, band);
+                let mut sums = vec![[0.0; 6]; band - m + 1];
+                for block in &blocks {
+                    // Functions with even l - m are the same on both halves of the sphere, the others change sign.
+                    let mut even = [[0.0; LANES]; 6];
+                    let mut odd = [[0.0; LANES]; 6];
+                    for i in 0..LANES {
+                        let (north, south) = (&rows[block.north[i]][m], &rows[block.south[i]][m]);
+                        for c in 0..6 {
+                            even[c][i] = block.weight[i] * (north[c] + south[c]);
+                            odd[c][i] = block.weight[i] * (north[c] - south[c]);
+                        }
+                    }
+                    order.each(&block.cos, &block.sin, |k, p| {
+                        let values = if k % 2 == 0 { &even } else { &odd };
+                        for (sum, value) in sums[k].iter_mut().zip(values) {
+                            *sum += dot(p, value);
+                        }
+                    });
+                }
+                sums
+            })
+            .collect();
+        Spectrum { orders }
+    }
+
+    /// The coefficient of degree l and order m, m <= l: real and imaginary part for each colour channel.
+    pub(crate) fn coefficient(&self, l: usize, m: usize) -> [Complex; 3] {
+        match self.orders.get(m).and_then(|order| order.get(l - m)) {
+            Some(c) => [[c[0], c[1]], [c[2], c[3]], [c[4], c[5]]],
+            None => [[0.0; 2]; 3],
+        }
+    }
+
+    /// The map of the environment convolved with a zonal kernel, whose numbers k_l stand in `kernel` (further ones are 0),
+    /// on a grid of `rows` latitudes and twice as many longitudes. `rows` is a power of two.
+    pub(crate) fn synthesized(&self, kernel: &[f64], rows: usize) -> Grid {
+        let rows = rows.next_power_of_two().max(2);
+        let columns = 2 * rows;
+        let latitudes = rows / 2;
+        // `halves[m]` holds the sums over l for each latitude: north, then south.
+        let halves: Vec<Vec<Channels>> = self
+            .orders
+            .par_iter()
+            .take(kernel.len())
+            .enumerate()
+            .map(|(m, coefficients)| {
+                let band = (m + coefficients.len()).min(kernel.len()) - 1;
+                let order = Order::new(m, band);
+                let scaled: Vec<Channels> =
+                    coefficients.iter().zip(&kernel[m..]).map(|(c, k)| c.map(|x| x * k)).collect();
+                let mut sums = vec![[0.0; 6]; rows];
+                for first in (0..latitudes).step_by(LANES) {
+                    let theta: Lanes = std::array::from_fn(|i| PI * ((first + i) as f64 + 0.5) / rows as f64);
+                    let mut even = [[0.0; LANES]; 6];
+                    let mut odd = [[0.0; LANES]; 6];
+                    order.each(&theta.map(f64::cos), &theta.map(f64::sin), |k, p| {
+                        let values = if k % 2 == 0 { &mut even } else { &mut odd };
+                        for (value, factor) in values.iter_mut().zip(&scaled[k]) {
+                            for i in 0..LANES {
+                                value[i] += factor * p[i];
+                            }
+                        }
+                    });
+                    for i in 0..LANES.min(latitudes - first) {
+                        let row = first + i;
+                        sums[row] = std::array::from_fn(|c| even[c][i] + odd[c][i]);
+                        sums[rows - 1 - row] = std::array::from_fn(|c| even[c][i] - odd[c][i]);
+                    }
+                }
+                sums
+            })
+            .collect();
+        let fourier = Fourier::new(columns);
+        let texels = (0..rows)
+            .into_par_iter()
+            .flat_map_iter(|row| {
+                // Two real functions f and g travel as f + i g: `pair` = (red, green), `single` = (blue, nothing).
+                let mut pair = vec![[0.0; 2]; columns];
+                let mut single = vec![[0.0; 2]; columns];
+                for (m, sums) in halves.iter().enumerate() {
+                    let s = sums[row];
+                    let (sin, cos) = (m as f64 * (PI / columns as f64 - PI)).sin_cos();
+                    let turned = |re: f64, im: f64| [re * cos - im * sin, re * sin + im * cos];
+                    let [r, g, b] = [turned(s[0], s[1]), turned(s[2], s[3]), turned(s[4], s[5])];
+                    // Orders beyond the grid's own fold onto those it has: at its points they are the same functions.
+                    let bin = m % columns;
+                    add(&mut pair[bin], [r[0] - g[1], r[1] + g[0]]);
+                    add(&mut single[bin], b);
+                    if m > 0 {
+                        let bin = (columns - bin) % columns;
+                        add(&mut pair[bin], [r[0] + g[1], g[0] - r[1]]);
+                        add(&mut single[bin], [b[0], -b[1]]);
+                    }
+                }
+                fourier.backward(&mut pair);
+                fourier.backward(&mut single);
+                pair.into_iter().zip(single).map(|([r, g], [b, _])| [r as f32, g as f32, b as f32])
+            })
+            .collect();
+        Grid { rows, texels }
+    }
+}
+
+fn add(sum: &mut Complex, x: Complex) {
+    sum[0] += x[0];
+    sum[1] += x[1];
+}
+
+/// The sum of products, in a fixed order that vector units can follow.
+#[inline(always)]
+fn dot(a: &Lanes, b: &Lanes) -> f64 {
+    let mut sums = [0.0; LANES / 2];
+    for i in 0..LANES / 2 {
+        sums[i] = a[i] * b[i] + a[i + LANES / 2] * b[i + LANES / 2];
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3])
+}
+
+/// The number of columns for the Fourier transform: a power of two, the map's own where it can be.
+fn analysed_columns(width: usize) -> usize {
+    if width.is_power_of_two() { width.min(MAX_COLUMNS) } else { (2 * width).next_power_of_two().min(MAX_COLUMNS) }
+}
+
+/// For each row, the integral over longitude of row times exp(-i m phi), for m = 0 ..= band.
+fn row_spectra(map: &Equirect, band: usize) -> Vec<Vec<Channels>> {
+    let n = map.width;
+    let fourier = Fourier::new(n);
+    // What a texel of constant value contributes beside its value at the centre, and where column 0 lies.
+    let texel_width = 2.0 * PI / n as f64;
+    let factors: Vec<Complex> = (0..=band)
+        .map(|m| {
+            let half = m as f64 * texel_width / 2.0;
+            let sinc = if m == 0 { 1.0 } else { half.sin() / half };
+            let (sin, cos) = (-(m as f64) * (texel_width / 2.0 - PI)).sin_cos();
+            [texel_width * sinc * cos, texel_width * sinc * sin]
+        })
+        .collect();
+    map.pixels
+        .par_chunks(n)
+        .map(|row| {
+            let mut pair: Vec<Complex> = row.iter().map(|p| [f64::from(p[0]), f64::from(p[1])]).collect();
+            let mut single: Vec<Complex> = row.iter().map(|p| [f64::from(p[2]), 0.0]).collect();
+            fourier.forward(&mut pair);
+            fourier.forward(&mut single);
+            factors
+                .iter()
+                .enumerate()
+                .map(|(m, factor)| {
+                    let (k, mirrored) = (m % n, (n - m % n) % n);
+                    // The spectra of two real functions that travelled as f + i g.
+                    let (z, w) = (pair[k], pair[mirrored]);
+                    let r = [(z[0] + w[0]) / 2.0, (z[1] - w[1]) / 2.0];
+                    let g = [(z[1] + w[1]) / 2.0, (w[0] - z[0]) / 2.0];
+                    let b = single[k];
+                    let turned =
+                        |x: Complex| [x[0] * factor[0] - x[1] * factor[1], x[0] * factor[1] + x[1] * factor[0]];
+                    let [r, g, b] = [turned(r), turned(g), turned(b)];
+                    [r[0], r[1], g[0], g[1], b[0], b[1]]
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// Latitudes at which the functions are evaluated to integrate over each row: enough of them within a row that the fastest
+/// function, which turns `band` times half round from pole to pole, is followed.
+fn node_blocks(rows: usize, band: usize) -> Vec<NodeBlock> {
+    let row_angle = PI / rows as f64;
+    let rule = gauss_legendre((band as f64 * row_angle / 2.0).ceil() as usize + 2);
+    let mut nodes = Vec::new();
+    for row in 0..rows.div_ceil(2) {
+        for &(x, w) in &rule {
+            let theta = row_angle * (row as f64 + 0.5 + x / 2.0);
+            // The middle row of an odd number is its own mirror image: its upper half counts twice, its middle once.
+            let share = if 2 * row + 1 < rows || x < -1e-12 {
+                1.0
+            } else if x.abs() <= 1e-12 {
+                0.5
+            } else {
+                continue;
+            };
+            nodes.push((theta, share * w / 2.0 * row_angle * theta.sin(), row));
+        }
+    }
+    nodes
+        .chunks(LANES)
+        .map(|chunk| {
+            // Short blocks are filled up with nodes of no weight.
+            let node = |i: usize| chunk.get(i).copied().unwrap_or((PI / 2.0, 0.0, 0));
+            NodeBlock {
+                cos: std::array::from_fn(|i| node(i).0.cos()),
+                sin: std::array::from_fn(|i| node(i).0.sin()),
+                weight: std::array::from_fn(|i| node(i).1),
+                north: std::array::from_fn(|i| node(i).2),
+                south: std::array::from_fn(|i| rows - 1 - node(i).2),
+            }
+        })
+        .collect()
+}
+
+/// A smooth map, read by cubic interpolation.
+pub(crate) struct Grid {
+    rows: usize,
+    texels: Vec<[f32; 3]>,
+}
+
+impl Grid {
+    /// The value in a direction: the cubic through four neighbours in each way. Never below 0.
+    pub(crate) fn sample(&self, dir: [f64; 3]) -> [f32; 3] {
+        let columns = 2 * self.rows;
+        let (u, v) = equirect_from_direction(dir);
+        let (x, y) = (u * columns as f64 - 0.5, v * self.rows as f64 - 0.5);
+        let (column, row) = (x.floor(), y.floor());
+        let (wx, wy) = (cubic_weights((x - column) as f32), cubic_weights((y - row) as f32));
+        let (column, row) = (column as isize, row as isize);
+        // Columns are a power of two, so the mask wraps negative ones too.
+        let wrap = |column: isize| column as usize & (columns - 1);
+        let mut sum = [0.0f32; 3];
+        for (dy, wy) in wy.into_iter().enumerate() {
+            let row = row + dy as isize - 1;
+            let (row, turn) = if row < 0 {
+                (-1 - row, self.rows as isize)
+            } else if row >= self.rows as isize {
+                (2 * self.rows as isize - 1 - row, self.rows as isize)
+            } else {
+                (row, 0)
+            };
+            let line = &self.texels[row as usize * columns..][..columns];
+            for (dx, wx) in wx.into_iter().enumerate() {
+                let texel = line[wrap(column + dx as isize - 1 + turn)];
+                for c in 0..3 {
+                    sum[c] += wx * wy * texel[c];
+                }
+            }
+        }
+        sum.map(|x| x.max(0.0))
+    }
+}
+
+/// Lagrange's weights of the points -1, 0, 1, 2 at t in 0..1.
+fn cubic_weights(t: f32) -> [f32; 4] {
+    let (before, after, two) = (t + 1.0, t - 1.0, t - 2.0);
+    [-t * after * two / 6.0, before * after * two / 2.0, -before * t * two / 2.0, before * t * after / 6.0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A map that is a sum of few harmonics comes back as it was, and its coefficients are the known ones.
+    #[test]
+    fn low_harmonics_come_back() {
+        let f = |d: [f64; 3]| [1.0 + 0.5 * d[0], 2.0 + d[1] * d[2], 1.0 + 0.3 * d[2]].map(|x| x as f32);
+        let spectrum = Spectrum::from_equirect(&Equirect::from_fn(512, 256, f), 16);
+        let y00 = (4.0 * PI).sqrt();
+        assert!((spectrum.coefficient(0, 0)[0][0] - y00).abs() < 1e-4);
+        let grid = spectrum.synthesized(&[1.0; 17], 64);
+        for dir in [[0.0, 1.0, 0.0], [0.6, 0.0, 0.8], [-0.6, 0.48, -0.64], [0.0, -1.0, 0.0], [-1.0, 0.0, -1e-9]] {
+            let (exact, value) = (f(dir), grid.sample(dir));
+            for c in 0..3 {
+                assert!((exact[c] - value[c]).abs() < 2e-4, "{dir:?}: {value:?} for {exact:?}");
+            }
+        }
+    }
+
+    /// Odd row counts, one texel, widths that are no power of two: a constant stays one.
+    #[test]
+    fn constants_of_any_shape_stay() {
+        for (width, height) in [(1, 1), (2, 1), (3, 5), (100, 51), (64, 32), (2050, 3)] {
+            let map = Equirect { width, height, pixels: vec![[1.0, 2.0, 0.25]; width * height] };
+            let spectrum = Spectrum::from_equirect(&map, 40);
+            let grid = spectrum.synthesized(&[1.0; 41], 32);
+            for texel in &grid.texels {
+                for (value, exact) in texel.iter().zip([1.0, 2.0, 0.25]) {
+                    // Without a kernel the highest degrees, which are the least exact, count in full.
+                    assert!((value / exact - 1.0).abs() < 5e-5, "{width} x {height}: {texel:?}");
+                }
+            }
+        }
+    }
+}

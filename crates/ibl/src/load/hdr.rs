@@ -1,0 +1,270 @@
+//! Radiance `.hdr`: flat, old and new run lengths, all eight orientations, RGBE and XYZE.
+//!
+//! Values are mantissa * 2^(exponent - 136), as nearly all programs read them; EXPOSURE and COLORCORR lines are not
+//! applied, for the same reason.
+
+use super::{Fault, Limits, checked_texels, field};
+use crate::equirect::Equirect;
+
+/// The header is text; a file whose header goes on for longer is not one.
+const MAX_HEADER: usize = 65536;
+
+/// Larsson and Shakespeare 1998, "Rendering with Radiance", and the Radiance file format page (Ward).
+pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Equirect, Fault> {
+    let mut rest = bytes;
+    let mut xyz = false;
+    line(&mut rest, bytes.len())?;
+    loop {
+        let text = line(&mut rest, bytes.len())?;
+        if text.is_empty() {
+            break;
+        }
+        match text.strip_prefix(b"FORMAT=").map(<[u8]>::trim_ascii) {
+            Some(b"32-bit_rle_rgbe") | None => {}
+            Some(b"32-bit_rle_xyze") => xyz = true,
+            Some(other) => {
+                let other = String::from_utf8_lossy(other).into_owned();
+                return Err(field("FORMAT", format!("{other} is neither 32-bit_rle_rgbe nor 32-bit_rle_xyze")));
+            }
+        }
+    }
+    let size = Size::parsed(line(&mut rest, bytes.len())?)?;
+    let count = checked_texels(size.line_length as u64, size.lines as u64, limits)?;
+
+    // Grows with what the file really holds: a header alone buys no memory.
+    let mut texels: Vec<[u8; 4]> = Vec::new();
+    while texels.len() < count {
+        scan_line(&mut rest, &mut texels, size.line_length)?;
+    }
+
+    let (width, height) =
+        if size.columns_first { (size.lines, size.line_length) } else { (size.line_length, size.lines) };
+    let mut pixels = vec![[0.0; 3]; count];
+    for (k, texel) in texels.iter().enumerate() {
+        let (line, along) = (k / size.line_length, k % size.line_length);
+        let (x, y) = if size.columns_first { (line, along) } else { (along, line) };
+        let x = if size.from_right { width - 1 - x } else { x };
+        let y = if size.from_bottom { height - 1 - y } else { y };
+        pixels[y * width + x] = decoded(*texel, xyz);
+    }
+    Ok(Equirect { width, height, pixels })
+}
+
+/// The next line of the header, without its end.
+fn line<'a>(rest: &mut &'a [u8], whole: usize) -> Result<&'a [u8], Fault> {
+    let text = *rest;
+    let Some(end) = text.iter().take(MAX_HEADER).position(|&b| b == b'\n') else {
+        return Err(if text.len() >= MAX_HEADER || whole - text.len() > MAX_HEADER {
+            field("header", "it does not end; is this a Radiance file?")
+        } else {
+            Fault::Truncated("its header".to_owned())
+        });
+    };
+    *rest = &text[end + 1..];
+    Ok(text[..end].strip_suffix(b"\r").unwrap_or(&text[..end]))
+}
+
+/// The resolution line, such as "-Y 512 +X 1024": the first axis counts lines, the second texels along a line.
+struct Size {
+    lines: usize,
+    line_length: usize,
+    /// Lines are columns.
+    columns_first: bool,
+    from_right: bool,
+    from_bottom: bool,
+}
+
+impl Size {
+    fn parsed(text: &[u8]) -> Result<Size, Fault> {
+        let wrong = || {
+            let text = String::from_utf8_lossy(&text[..text.len().min(60)]).into_owned();
+            field("resolution", format!("\"{text}\" is not of the form \"-Y height +X width\""))
+        };
+        let text = std::str::from_utf8(text).map_err(|_| wrong())?;
+        let words: Vec<&str> = text.split_ascii_whitespace().collect();
+        let &[major, lines, minor, line_length] = words.as_slice() else { return Err(wrong()) };
+        let number = |word: &str| word.parse::<u32>().map(|n| n as usize).map_err(|_| wrong());
+        let (columns_first, vertical, horizontal) = match (major, minor) {
+            ("-Y" | "+Y", "-X" | "+X") => (false, major, minor),
+            ("-X" | "+X", "-Y" | "+Y") => (true, minor, major),
+            _ => return Err(wrong()),
+        };
+        Ok(Size {
+            lines: number(lines)?,
+            line_length: number(line_length)?,
+            columns_first,
+            from_right: horizontal == "-X",
+            // +Y points up, so lines that follow +Y start at the bottom.
+            from_bottom: vertical == "+Y",
+        })
+    }
+}
+
+/// Reads one line's texels on to `texels`, in whichever of the three codings it is.
+fn scan_line(rest: &mut &[u8], texels: &mut Vec<[u8; 4]>, length: usize) -> Result<(), Fault> {
+    let number = texels.len() / length;
+    let ended = || Fault::Truncated(format!("line {number} of its pixels"));
+    let first = *rest.first_chunk::<4>().ok_or_else(ended)?;
+    let new_style = (8..0x8000).contains(&length)
+        && first[..2] == [2, 2]
+        && usize::from(first[2]) << 8 | usize::from(first[3]) == length;
+    if !new_style {
+        return old_line(rest, texels, length);
+    }
+    let mut data = &rest[4..];
+    let start = texels.len();
+    // Each component's runs give at most 127 texels for two bytes: no file can ask for more than 64 times its length.
+    if data.len() < 4 * 2 * length.div_ceil(127) {
+        return Err(ended());
+    }
+    texels.resize(start + length, [0; 4]);
+    for component in 0..4 {
+        let mut x = 0;
+        while x < length {
+            let &[code, value] = data.first_chunk::<2>().ok_or_else(ended)?;
+            let run = if code > 128 { usize::from(code - 128) } else { usize::from(code) };
+            if run == 0 || run > length - x {
+                return Err(field(
+                    format!("run lengths of line {number}"),
+                    format!("a run of {run} at texel {x} of {length}; the file is damaged"),
+                ));
+            }
+            let target = &mut texels[start + x..start + x + run];
+            if code > 128 {
+                target.iter_mut().for_each(|texel| texel[component] = value);
+                data = &data[2..];
+            } else {
+                let values = data.get(1..1 + run).ok_or_else(ended)?;
+                target.iter_mut().zip(values).for_each(|(texel, value)| texel[component] = *value);
+                data = &data[1 + run..];
+            }
+            x += run;
+        }
+    }
+    *rest = data;
+    Ok(())
+}
+
+/// A line of plain texels, among which (1, 1, 1, n) repeats the one before n times, and directly after another such code
+/// n * 256 times, and so on.
+fn old_line(rest: &mut &[u8], texels: &mut Vec<[u8; 4]>, length: usize) -> Result<(), Fault> {
+    let start = texels.len();
+    let number = start / length;
+    let mut shift = 0;
+    while texels.len() < start + length {
+        let texel = *rest.first_chunk::<4>().ok_or_else(|| Fault::Truncated(format!("line {number} of its pixels")))?;
+        *rest = &rest[4..];
+        if texel[..3] == [1, 1, 1] {
+            let wrong =
+                |reason: &str| field(format!("run lengths of line {number}"), format!("{reason}; the file is damaged"));
+            let last = *texels.last().ok_or_else(|| wrong("a repetition of nothing"))?;
+            let run = if shift < 32 { usize::from(texel[3]) << shift } else { usize::MAX };
+            if run > start + length - texels.len() {
+                return Err(wrong("a run goes beyond its line"));
+            }
+            texels.resize(texels.len() + run, last);
+            shift += 8;
+        } else {
+            texels.push(texel);
+            shift = 0;
+        }
+    }
+    Ok(())
+}
+
+/// The linear Rec. 709 colour of a texel: mantissa * 2^(exponent - 136), exponent 0 is black.
+fn decoded([r, g, b, exponent]: [u8; 4], xyz: bool) -> [f32; 3] {
+    if exponent == 0 {
+        return [0.0; 3];
+    }
+    let scale = (f32::from(exponent) - 136.0).exp2();
+    let c = [r, g, b].map(|x| f32::from(x) * scale);
+    if xyz { rec709_from_xyz(c) } else { c }
+}
+
+/// CIE XYZ of Radiance's equal-energy white to linear Rec. 709 (ITU-R BT.709-6 primaries), each row scaled so that
+/// X = Y = Z gives grey.
+fn rec709_from_xyz([x, y, z]: [f32; 3]) -> [f32; 3] {
+    const M: [[f32; 3]; 3] =
+        [[3.240_970, -1.537_383, -0.498_611], [-0.969_244, 1.875_968, 0.041_555], [0.055_630, -0.203_977, 1.056_972]];
+    M.map(|row| (row[0] * x + row[1] * y + row[2] * z) / row.iter().sum::<f32>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pixels(bytes: &[u8]) -> Result<Equirect, String> {
+        read(bytes, Limits::default()).map_err(|fault| match fault {
+            Fault::Field(field, reason) => format!("{field}: {reason}"),
+            Fault::Truncated(field) => format!("truncated: {field}"),
+            Fault::TooLarge { .. } => "too large".to_owned(),
+            Fault::Image(error) => error.to_string(),
+        })
+    }
+
+    fn file(resolution: &str, data: &[u8]) -> Vec<u8> {
+        [b"#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n", resolution.as_bytes(), b"\n", data]
+            .concat()
+    }
+
+    /// Each orientation says where its first texel lies and which way the second is.
+    #[test]
+    fn orientations() {
+        let texels: Vec<u8> = (0..6u8).flat_map(|i| [i * 16, 0, 0, 136]).collect();
+        for (resolution, size, first, second) in [
+            ("-Y 2 +X 3", (3, 2), (0, 0), (1, 0)),
+            ("-Y 2 -X 3", (3, 2), (2, 0), (1, 0)),
+            ("+Y 2 +X 3", (3, 2), (0, 1), (1, 1)),
+            ("+Y 2 -X 3", (3, 2), (2, 1), (1, 1)),
+            ("+X 2 -Y 3", (2, 3), (0, 0), (0, 1)),
+            ("-X 2 -Y 3", (2, 3), (1, 0), (1, 1)),
+            ("+X 2 +Y 3", (2, 3), (0, 2), (0, 1)),
+            ("-X 2 +Y 3", (2, 3), (1, 2), (1, 1)),
+        ] {
+            let map = pixels(&file(resolution, &texels)).unwrap();
+            assert_eq!((map.width, map.height), size, "{resolution}");
+            let at = |(x, y): (usize, usize)| map.pixels[y * map.width + x][0];
+            assert_eq!((at(first), at(second)), (0.0, 16.0), "{resolution}");
+        }
+    }
+
+    #[test]
+    fn both_run_lengths() {
+        let mut new = vec![2, 2, 0, 9];
+        new.extend([128 + 9, 128]);
+        new.extend([3, 1, 2, 3, 128 + 6, 7]);
+        new.extend([128 + 9, 0, 128 + 9, 136]);
+        let map = pixels(&file("-Y 1 +X 9", &new)).unwrap();
+        assert_eq!(map.pixels[0], [128.0, 1.0, 0.0]);
+        assert_eq!(map.pixels[8], [128.0, 7.0, 0.0]);
+        let old = [9, 8, 7, 137, 1, 1, 1, 3, 5, 5, 5, 135];
+        let map = pixels(&file("-Y 1 +X 5", &old)).unwrap();
+        assert_eq!(
+            map.pixels,
+            [[18.0, 16.0, 14.0], [18.0, 16.0, 14.0], [18.0, 16.0, 14.0], [18.0, 16.0, 14.0], [2.5; 3]]
+        );
+    }
+
+    #[test]
+    fn lies_are_named() {
+        for (bytes, part) in [
+            (file("-Y 4000000000 +X 4000000000", &[]), "too large"),
+            (file("-Y 0 +X 4", &[]), "size"),
+            (file("-Y 4 +X -4", &[]), "resolution"),
+            (file("-Y 4 +Y 4", &[]), "resolution"),
+            (file("-Y 1 +X 4", &[0; 15]), "truncated: line 0"),
+            (
+                file("-Y 1 +X 9", &[2, 2, 0, 9, 128 + 10, 0, 128 + 9, 0, 128 + 9, 0, 128 + 9, 0]),
+                "run lengths of line 0",
+            ),
+            (file("-Y 1 +X 4", &[1, 1, 1, 4]), "run lengths of line 0"),
+            (b"#?RADIANCE\nFORMAT=jpeg\n\n".to_vec(), "FORMAT"),
+            (b"#?RADIANCE".to_vec(), "truncated: its header"),
+            (vec![b'#'; 70000], "header"),
+        ] {
+            let error = pixels(&bytes).unwrap_err();
+            assert!(error.contains(part), "{error} should name {part}");
+        }
+    }
+}

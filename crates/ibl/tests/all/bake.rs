@@ -1,0 +1,257 @@
+//! Properties of a bake that need no truth: white stays white, no seams, no chance, hard cases.
+
+use halfvector_ibl::environment::{dfg_from_table, environment_sample, irradiance_sh2};
+use halfvector_ibl::{
+    BakeOptions, Cube, Equirect, LevelMap, Visibility, bake, cube_from_equirect, dfg, dfg_table,
+    direction_from_equirect, direction_from_face, face_from_direction, sky, studio, texel_solid_angle, white,
+};
+use std::f64::consts::PI;
+
+fn small(size: usize) -> BakeOptions {
+    BakeOptions { size, irradiance_size: 16, ..BakeOptions::default() }
+}
+
+#[test]
+fn white_is_one() {
+    let baked = bake(&white(), &small(64));
+    assert_eq!(baked.roughness, [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]);
+    for cube in baked.radiance.iter().chain([&baked.irradiance_over_pi]) {
+        for x in cube.texels.iter().flatten() {
+            assert!((x - 1.0).abs() < 1e-5, "{x}");
+        }
+    }
+    for dir in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.6, 0.0, -0.8]] {
+        for x in irradiance_sh2(baked.irradiance_sh_padded(), dir) {
+            assert!((x - 1.0f32).abs() < 1e-5, "{x}");
+        }
+    }
+}
+
+/// A map that says where it looks: sampling the cube with a world direction returns what the map has there.
+#[test]
+fn cube_shows_the_right_way() {
+    let map = Equirect::from_fn(512, 256, |d| d.map(|x| (x + 1.0) as f32));
+    let cube = cube_from_equirect(&map, 64);
+    for k in 0..200 {
+        let (u, v) = ((k as f64 * 0.618_034).fract(), (k as f64 + 0.5) / 200.0);
+        let dir = direction_from_equirect(u, v);
+        for (value, x) in cube.sample(dir).iter().zip(dir) {
+            assert!((f64::from(*value) - x - 1.0).abs() < 2e-3, "{dir:?}: {value}");
+        }
+    }
+    for face in 0..6 {
+        let (f, s, t) = face_from_direction(direction_from_face(face, 0.3, -0.7));
+        assert!(f == face && (s - 0.3).abs() < 1e-12 && (t + 0.7).abs() < 1e-12);
+    }
+    let sphere: f64 = (0..49).map(|k| 6.0 * texel_solid_angle(7, k % 7, k / 7)).sum();
+    assert!((sphere - 4.0 * PI).abs() < 1e-12);
+}
+
+/// A large map is averaged by area: a fine chequerboard becomes even grey, at the poles too, and no energy is lost.
+#[test]
+fn fine_maps_do_not_alias() {
+    let map = Equirect {
+        width: 1024,
+        height: 512,
+        pixels: (0..1024 * 512).map(|k| [((k % 1024 + k / 1024) % 2) as f32; 3]).collect(),
+    };
+    let cube = cube_from_equirect(&map, 32);
+    for x in cube.texels.iter().flatten() {
+        assert!((x - 0.5).abs() < 0.06, "{x}");
+    }
+    let mut lamp = Equirect { width: 1024, height: 512, pixels: vec![[0.0; 3]; 1024 * 512] };
+    lamp.pixels[200 * 1024 + 333] = [1000.0; 3];
+    let cube = cube_from_equirect(&lamp, 64);
+    let mean = |c: &Cube| -> f64 {
+        let share = |k: usize| texel_solid_angle(c.size, k % c.size, k / c.size % c.size) / (4.0 * PI);
+        c.texels.iter().enumerate().map(|(k, texel)| f64::from(texel[0]) * share(k)).sum()
+    };
+    let (kept, whole) = (mean(&cube), lamp.mean()[0]);
+    assert!((kept / whole - 1.0).abs() < 0.1, "{kept} of {whole}");
+}
+
+/// The value steps between two texels that share an edge of the cube are as large as those inside the faces.
+#[test]
+fn no_seams() {
+    let baked = bake(&studio(), &small(128));
+    for (cube, roughness) in baked.radiance.iter().zip(&baked.roughness).skip(1) {
+        let (inside, across) = steps(cube);
+        println!("roughness {roughness}: mean step inside {inside:.5}, across edges {across:.5}");
+        // Texels at an edge are smaller than at the middle of a face, so the steps are, too.
+        assert!(across < 1.3 * inside, "roughness {roughness}: {across} for {inside}");
+    }
+}
+
+/// Mean absolute step between neighbours, relative to the mean, inside the faces and across their edges.
+fn steps(cube: &Cube) -> (f64, f64) {
+    let n = cube.size;
+    let at = |face: usize, i: usize, j: usize| f64::from(cube.texels[(face * n + j) * n + i][1]);
+    let mean: f64 = cube.texels.iter().map(|t| f64::from(t[1])).sum::<f64>() / cube.texels.len() as f64;
+    let (mut inside, mut count) = (0.0, 0.0);
+    for face in 0..6 {
+        for j in 0..n {
+            for i in 1..n {
+                inside += (at(face, i, j) - at(face, i - 1, j)).abs() + (at(face, j, i) - at(face, j, i - 1)).abs();
+                count += 2.0;
+            }
+        }
+    }
+    let (mut across, mut edges) = (0.0, 0.0);
+    for face in 0..6 {
+        for k in 0..n {
+            let place = (2.0 * k as f64 + 1.0) / n as f64 - 1.0;
+            for (i, j, s, t) in [(0, k, -1.0001, place), (n - 1, k, 1.0001, place), (k, 0, place, -1.0001)] {
+                let (other, s, t) = face_from_direction(direction_from_face(face, s, t));
+                let index = |x: f64| (((x + 1.0) / 2.0 * n as f64) as usize).min(n - 1);
+                across += (at(face, i, j) - at(other, index(s), index(t))).abs();
+                edges += 1.0;
+            }
+        }
+    }
+    (inside / count / mean, across / edges / mean)
+}
+
+/// The same bytes with one thread, two and five.
+#[test]
+fn no_chance_and_no_order() {
+    let options = BakeOptions { level_map: LevelMap::Listed(vec![0.0, 0.05, 0.2, 0.7]), ..small(32) };
+    let environment = sky();
+    let with_threads = |n: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("a thread pool");
+        pool.install(|| (bake(&environment, &options), dfg_table(16)))
+    };
+    let one = with_threads(1);
+    for n in [2, 5] {
+        assert!(with_threads(n) == one, "{n} threads");
+    }
+}
+
+/// One texel with half of the energy, a black map, one texel in all, all at the largest value.
+#[test]
+fn hard_maps() {
+    let black = Equirect { width: 64, height: 32, pixels: vec![[0.0; 3]; 64 * 32] };
+    let baked = bake(&black.clone().into(), &small(32));
+    assert!(baked.radiance.iter().flat_map(|cube| cube.texels.iter().flatten()).all(|&x| x == 0.0));
+
+    let mut lamp = Equirect { width: 256, height: 128, pixels: vec![[0.1; 3]; 256 * 128] };
+    let (row, column) = (30, 77);
+    let area = 2.0 * PI / 256.0 * ((row as f64 * PI / 128.0).cos() - ((row + 1) as f64 * PI / 128.0).cos());
+    lamp.pixels[row * 256 + column] = [(0.1 * 4.0 * PI / area) as f32; 3];
+    let dir = direction_from_equirect((column as f64 + 0.5) / 256.0, (row as f64 + 0.5) / 128.0);
+    let away = dir.map(|x| -x);
+    let baked = bake(&lamp.into(), &small(128));
+    for (cube, &roughness) in baked.radiance.iter().zip(&baked.roughness).skip(1) {
+        // The lobe of a direction more than 90 degrees from the lamp does not see it.
+        let dark = cube.sample(away)[0];
+        assert!((dark - 0.1).abs() < 2e-3, "roughness {roughness}: {dark} on the dark side");
+        assert!(cube.texels.iter().flatten().all(|&x| (0.0..65504.0).contains(&x)));
+        // A far lamp through a GGX lobe: what the kernel says, texel by texel.
+        let alpha = f64::from(roughness).powi(2);
+        let kernel = |cos: f64| cos.max(0.0) / ((1.0 - cos) * (1.0 - alpha * alpha) / 2.0 + alpha * alpha).powi(2);
+        let steps = 200_000;
+        let whole: f64 =
+            (0..steps).map(|i| kernel((i as f64 + 0.5) / steps as f64) / steps as f64).sum::<f64>() * 2.0 * PI;
+        let peak = 0.1 + (0.1 * 4.0 * PI - 0.1 * area) * kernel(1.0) / whole;
+        let value = f64::from(cube.sample(dir)[0]);
+        println!("roughness {roughness}: {value} towards the lamp, a point lamp gives {peak}");
+        assert!((value / peak - 1.0).abs() < 0.04, "roughness {roughness}: {value} for {peak}");
+    }
+
+    let full = Equirect { width: 1, height: 1, pixels: vec![[65504.0; 3]] };
+    let baked = bake(&full.into(), &small(16));
+    for x in baked.radiance.iter().flat_map(|cube| cube.texels.iter().flatten()) {
+        assert!((x / 65504.0 - 1.0).abs() < 1e-5, "{x}");
+    }
+}
+
+/// Any options give something that can be read.
+#[test]
+fn any_options() {
+    let environment = white();
+    for size in [0, 1, 3, 17] {
+        for level_map in [
+            LevelMap::Linear,
+            LevelMap::Report,
+            LevelMap::Listed(vec![]),
+            LevelMap::Listed(vec![f32::NAN, -1.0, 9.0, 0.01]),
+        ] {
+            for levels in [None, Some(0), Some(3)] {
+                let options =
+                    BakeOptions { size, levels, level_map: level_map.clone(), decode_report: true, irradiance_size: 0 };
+                let baked = bake(&environment, &options);
+                assert_eq!(baked.radiance.len(), baked.roughness.len());
+                for (i, level) in baked.radiance.iter().enumerate() {
+                    assert_eq!(level.size, (size >> i).max(1));
+                    assert_eq!(level.texels.len(), 6 * level.size * level.size);
+                    assert!(level.texels.iter().flatten().all(|x| (x - 0.5).abs() < 1e-5));
+                }
+            }
+        }
+    }
+    let levels = bake(&environment, &small(16)).radiance;
+    for lod in [f64::NAN, -1.0, 0.0, 0.5, 99.0, f64::INFINITY] {
+        assert!((environment_sample(&levels, [0.0, 0.0, 0.0], lod)[0] - 1.0).abs() < 1e-5);
+    }
+}
+
+/// The report's levels: six, at fifths, each half as large as the one before.
+#[test]
+fn report_levels() {
+    let options = BakeOptions { level_map: LevelMap::Report, irradiance_size: 64, ..small(64) };
+    let baked = bake(&studio(), &options);
+    assert_eq!(baked.roughness, [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]);
+    assert_eq!(baked.radiance.iter().map(|cube| cube.size).collect::<Vec<_>>(), [64, 32, 16, 8, 4, 2]);
+    // GGX at roughness 1 is the cosine lobe: the last level is the diffuse light.
+    for dir in [[0.5, 1.0, 0.5], [1.0, -0.5, 0.5], [0.5, -0.5, -1.0]] {
+        let (last, diffuse) = (baked.radiance[5].sample(dir)[0], baked.irradiance_over_pi.sample(dir)[0]);
+        assert!((last / diffuse - 1.0).abs() < 0.02, "{last} for {diffuse}");
+    }
+}
+
+/// Both built-in pictures have the brightness and the range that their documentation states.
+#[test]
+fn built_ins() {
+    for (name, environment, mean_range) in [("studio", studio(), 0.45..0.6), ("sky", sky(), 0.5..1.2)] {
+        assert!(environment.repairs.is_none(), "{name}: {}", environment.repairs);
+        let baked = bake(&environment, &small(64));
+        let mean = baked.irradiance_sh[0];
+        println!("{name}: mean radiance {mean:?}");
+        for x in mean {
+            assert!(mean_range.contains(&x), "{name}: {mean:?}");
+        }
+    }
+}
+
+/// The table against finer quadrature, at its texels and between them, and against what is known at its edges.
+#[test]
+fn dfg_table_is_accurate() {
+    let table = dfg_table(64);
+    let (mut at_texels, mut between) = (0.0f64, 0.0f64);
+    for k in 0..400 {
+        // The corner n_dot_v < alpha of the smoothest surfaces is no wider than a thousandth of a degree.
+        let (x, y) = ((k as f64 * 0.618_034).fract().max(1e-3), (k as f64 + 0.5) / 400.0);
+        let snap = |x: f64| (x * 63.0).round() / 63.0;
+        let error = |x: f64, y: f64| {
+            let (value, truth) = (dfg_from_table(&table, x, y), dfg(x, y, Visibility::Correlated));
+            (0..2).map(|i| (f64::from(value[i]) - truth[i]).abs()).fold(0.0, f64::max)
+        };
+        at_texels = at_texels.max(error(snap(x.sqrt()).powi(2), snap(y)));
+        between = between.max(error(x, y));
+    }
+    println!("dfg table: {at_texels:.2e} at texels, {between:.2e} between");
+    assert!(at_texels < 1e-3 && between < 4e-3);
+    // A mirror reflects Schlick's share.
+    for n_dot_v in [0.0, 0.2, 0.5, 1.0] {
+        let [a, b] = dfg(n_dot_v, 0.0, Visibility::Correlated);
+        let fresnel = (1.0 - n_dot_v).powi(5);
+        assert!((b - fresnel).abs() < 1e-4 && (a - 1.0 + fresnel).abs() < 1e-4, "{n_dot_v}: {a}, {b}");
+    }
+    for (x, y) in [(f64::NAN, f64::NAN), (-1.0, 2.0), (0.0, 1.0), (1e300, -1e300)] {
+        assert!(
+            dfg(x, y, Visibility::Separable)
+                .iter()
+                .chain(&dfg_from_table(&table, x, y).map(f64::from))
+                .all(|v| (0.0..=1.0).contains(v))
+        );
+    }
+}

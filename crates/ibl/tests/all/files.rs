@@ -1,0 +1,281 @@
+//! Files: real ones give the light they should, damaged and lying ones an error that names the field.
+
+use crate::data_file;
+use halfvector_ibl::{
+    BakeOptions, Equirect, LevelMap, Limits, LoadError, LoadedEnvironment, MAX_RADIANCE, Source, StoredLevels, bake,
+    load, load_within,
+};
+use proptest::prelude::*;
+
+fn map(environment: LoadedEnvironment) -> Equirect {
+    match environment.source {
+        Source::Equirect(map) => map,
+        Source::Levels(_) => panic!("a map was expected"),
+    }
+}
+
+fn stored(environment: LoadedEnvironment) -> StoredLevels {
+    match environment.source {
+        Source::Levels(levels) => levels,
+        Source::Equirect(_) => panic!("levels were expected"),
+    }
+}
+
+/// The same picture as ZIP half EXR, as DWAB EXR and as Radiance file.
+#[test]
+fn formats_agree() {
+    let (Some(exr), Some(hdr), Some(dwab)) =
+        (data_file("env/bpy_city.exr"), data_file("env/bpy_city.hdr"), data_file("env/dwab/bpy_city.exr"))
+    else {
+        return;
+    };
+    let [exr, hdr, dwab] =
+        [(&exr, "bpy_city.exr"), (&hdr, "bpy_city.hdr"), (&dwab, "dwab/bpy_city.exr")].map(|(b, name)| {
+            let environment = load(b, name).expect("the file is sound");
+            println!("{name}: {}", environment.repairs);
+            map(environment)
+        });
+    for other in [&hdr, &dwab] {
+        assert_eq!((exr.width, exr.height), (1024, 512));
+        assert_eq!((other.width, other.height), (1024, 512));
+    }
+    for (a, b) in exr.pixels.iter().zip(&hdr.pixels) {
+        let largest = a.iter().copied().fold(0.0, f32::max);
+        for c in 0..3 {
+            assert!((a[c] - b[c]).abs() <= 0.0045 * largest + 1e-6, "{a:?} and {b:?}");
+        }
+    }
+    let (a, b) = (exr.mean(), dwab.mean());
+    for c in 0..3 {
+        assert!((a[c] / b[c] - 1.0).abs() < 0.01, "{a:?} and {b:?}");
+    }
+}
+
+#[test]
+fn small_dwab_files() {
+    for (name, brightest) in [("env/city.exr", 11.0), ("env/studio.exr", 3730.0), ("mitsuba/venice.exr", 8.6)] {
+        let Some(bytes) = data_file(name) else { return };
+        let map = map(load(&bytes, name).expect("the file is sound"));
+        assert_eq!((map.width, map.height), (512, 256));
+        let found = map.pixels.iter().flatten().copied().fold(0.0, f32::max);
+        assert!((found / brightest - 1.0).abs() < 0.05, "{name}: {found} for {brightest}");
+    }
+}
+
+/// Both real HDRE files: the room's bright ceiling is up, levels look alike, and the coefficients match the pixels.
+#[test]
+fn hdre_files() {
+    for (name, size) in [("hdre/lounge_64.hdre", 64), ("hdre/lythwood_lounge.hdre", 128)] {
+        let Some(bytes) = data_file(name) else { return };
+        let environment = load(&bytes, name).expect("the file is sound");
+        let levels = stored(environment.clone());
+        assert_eq!(levels.version, 2.0);
+        let sizes: Vec<usize> = levels.levels.iter().map(|cube| cube.size).collect();
+        assert_eq!(sizes, [0, 1, 2, 3, 4, 5].map(|i| (size >> i).max(8)));
+        let (up, down) = (levels.levels[3].sample([0.0, 1.0, 0.0])[1], levels.levels[3].sample([0.0, -1.0, 0.0])[1]);
+        assert!(up > 1.5 * down, "{name}: {up} above, {down} below");
+
+        let baked = bake(&environment, &BakeOptions { size: 32, ..BakeOptions::default() });
+        if let Some(coefficients) = levels.irradiance_sh {
+            for k in 0..9 {
+                let (file, ours) = (coefficients[k][1], baked.irradiance_sh[k][1]);
+                println!("{name}: coefficient {k}: {file} in the file, {ours} from its pixels");
+                assert!((file - ours).abs() < 0.06 * baked.irradiance_sh[0][1], "{name}, {k}: {file} for {ours}");
+            }
+        }
+        // The report takes the file's levels as they are.
+        let report = bake(&environment, &BakeOptions { size, level_map: LevelMap::Report, ..BakeOptions::default() });
+        assert_eq!(report.radiance[1], levels.levels[1]);
+        assert_eq!(report.radiance[5].size, size >> 5);
+    }
+}
+
+/// An HDRE file of our own.
+fn hdre(
+    version: f32,
+    size: u16,
+    kind: u16,
+    bits: u16,
+    channels: u16,
+    texel: impl Fn(usize, usize) -> Vec<u8>,
+) -> Vec<u8> {
+    let mut bytes = vec![0; 256];
+    bytes[..4].copy_from_slice(b"HDRE");
+    bytes[4..8].copy_from_slice(&version.to_le_bytes());
+    for (at, value) in [(8, size), (10, size), (16, channels), (18, bits), (20, 256), (22, 1), (28, kind)] {
+        bytes[at..at + 2].copy_from_slice(&value.to_le_bytes());
+    }
+    for level in 0..6 {
+        let size = usize::from(size) >> level;
+        let size = if version > 2.0 { size.max(1) } else { size.max(8) };
+        for k in 0..6 * size * size {
+            bytes.extend(texel(level, k / (size * size)));
+        }
+    }
+    bytes
+}
+
+/// Face numbers in every coding; below 3.0 up and down change places.
+#[test]
+fn hdre_codings() {
+    let floats = |value: f32, n: usize| std::iter::repeat_n(value.to_le_bytes(), n).flatten().collect::<Vec<u8>>();
+    let files = [
+        ("float", hdre(2.0, 16, 3, 32, 4, |_, face| floats(face as f32, 4)), [0.0, 1.0, 3.0, 2.0, 4.0, 5.0]),
+        ("rgb", hdre(2.75, 16, 3, 32, 3, |_, face| floats(face as f32, 3)), [0.0, 1.0, 3.0, 2.0, 4.0, 5.0]),
+        ("half", hdre(3.0, 16, 2, 16, 4, |_, _| [0x00, 0x40].repeat(4)), [2.0; 6]),
+        ("u8", hdre(2.5, 16, 1, 8, 4, |_, _| vec![255; 4]), [1.0; 6]),
+        ("rgbe", hdre(2.75, 16, 4, 8, 4, |_, _| vec![128, 128, 128, 131]), [4.0; 6]),
+    ];
+    for (name, bytes, expected) in files {
+        let levels = stored(load(&bytes, name).expect(name)).levels;
+        for cube in &levels {
+            let face = cube.size * cube.size;
+            for (k, texel) in cube.texels.iter().enumerate() {
+                assert_eq!(texel[0], expected[k / face], "{name}, face {}", k / face);
+            }
+        }
+    }
+}
+
+/// From 3.0 on the rows of the filtered levels are turned to match level 0, whichever way they were written.
+#[test]
+fn hdre_rows_are_found() {
+    for flipped in [false, true] {
+        let mut bytes = hdre(3.0, 32, 3, 32, 4, |_, _| Vec::new());
+        for level in 0..6 {
+            let size = 32usize >> level;
+            for k in 0..6 * size * size {
+                let row = k % (size * size) / size;
+                let row = if flipped && level > 0 { size - 1 - row } else { row };
+                let value = (row as f32 + 0.5) / size as f32;
+                bytes.extend(std::iter::repeat_n(value.to_le_bytes(), 4).flatten());
+            }
+        }
+        let levels = stored(load(&bytes, "rows").expect("sound")).levels;
+        for cube in &levels[..5] {
+            assert!(cube.texels[0][0] < 0.5, "first row up, size {}", cube.size);
+        }
+    }
+}
+
+#[test]
+fn lying_headers_name_the_field() {
+    let sound = hdre(2.0, 8, 3, 32, 4, |_, _| vec![0; 16]);
+    assert!(load(&sound, "x").is_ok());
+    let with = |at: usize, bytes: &[u8]| {
+        let mut file = sound.clone();
+        file[at..at + bytes.len()].copy_from_slice(bytes);
+        file
+    };
+    for (file, part) in [
+        (with(4, &1.5f32.to_le_bytes()), "version"),
+        (with(4, &f32::NAN.to_le_bytes()), "version"),
+        (with(8, &[9, 0]), "height"),
+        (with(8, &[0, 0, 0, 0]), "size"),
+        (with(8, &[0xff, 0xff, 0xff, 0xff]), "limit"),
+        (with(8, &[0, 4, 0, 4]), "its levels"),
+        (with(16, &[3, 0]), "numChannels"),
+        (with(18, &[16, 0]), "bitsPerChannel"),
+        (with(20, &[0xff, 0xff]), "its levels"),
+        (with(20, &[0, 0]), "headerSize"),
+        (with(22, &[0, 1]), "endianEncoding"),
+        (with(28, &[7, 0]), "type"),
+        (with(30, &[1, 0]), "numCoeffs"),
+        (with(30, &[2, 0]), "includesSH"),
+        (with(0, b"ERDH"), "signature"),
+        (sound[..sound.len() - 1].to_vec(), "its levels"),
+        (sound[..100].to_vec(), "its header"),
+        (Vec::new(), "empty"),
+        (b"not a picture".to_vec(), "not an image"),
+        (b"#?RADIANCE\n\n-Y 99999999 +X 99999999\n".to_vec(), "limit"),
+    ] {
+        let error = load(&file, "room.hdre").expect_err(part).to_string();
+        assert!(error.contains(part) && error.contains("room.hdre"), "{error} should name {part}");
+    }
+    let error = load_within(&sound, "x", Limits { max_texels: 100, ..Limits::default() }).expect_err("too large");
+    assert!(matches!(error, LoadError::TooLarge { .. }), "{error}");
+}
+
+/// What light cannot be is counted and replaced.
+#[test]
+fn values_are_repaired() {
+    let values = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.5, 70000.0, 2.0];
+    let bytes =
+        hdre(2.0, 8, 3, 32, 4, |_, face| std::iter::repeat_n(values[face].to_le_bytes(), 4).flatten().collect());
+    let environment = load(&bytes, "x").expect("sound");
+    let components = 3 * 6 * 64;
+    assert_eq!(environment.repairs.not_a_number, components);
+    assert_eq!(environment.repairs.negative, 2 * components);
+    assert_eq!(environment.repairs.too_bright, 2 * components);
+    let levels = stored(environment).levels;
+    assert!(levels.iter().flat_map(|c| c.texels.iter().flatten()).all(|x| (0.0..=MAX_RADIANCE).contains(x)));
+}
+
+/// An EXR file of the project's own making, small.
+fn small_exr() -> Vec<u8> {
+    use exr::prelude::{WritableImage, f16};
+    let image = exr::image::Image::from_channels(
+        (8, 4),
+        exr::image::SpecificChannels::rgb(|p: exr::math::Vec2<usize>| {
+            (f16::from_f32(p.0 as f32), f16::from_f32(p.1 as f32), f16::from_f32(0.5))
+        }),
+    );
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image.write().to_buffered(&mut bytes).expect("written to memory");
+    bytes.into_inner()
+}
+
+#[test]
+fn exr_texels_stand_where_they_should() {
+    let map = map(load(&small_exr(), "small.exr").expect("sound"));
+    assert_eq!((map.width, map.height), (8, 4));
+    assert_eq!(map.pixels[2 * 8 + 5], [5.0, 2.0, 0.5]);
+}
+
+fn small_hdr() -> Vec<u8> {
+    let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n".to_vec();
+    for _ in 0..4 {
+        bytes.extend([2, 2, 0, 8]);
+        for value in [100, 120, 140, 130] {
+            bytes.extend([128 + 5, value, 3, 1, 2, 3]);
+        }
+    }
+    bytes
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(
+        std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(400)
+    ))]
+
+    /// No bytes whatever make a reader panic or give values out of range: sound files, cut short and with bytes changed.
+    #[test]
+    fn damaged_files(
+        which in 0usize..4,
+        cut in any::<prop::sample::Index>(),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
+        keep_whole in any::<bool>(),
+    ) {
+        let mut bytes = match which {
+            0 => small_hdr(),
+            1 => hdre(2.0, 8, 3, 32, 4, |_, _| vec![7; 16]),
+            2 => hdre(3.0, 16, 2, 16, 3, |level, face| vec![level as u8, face as u8, 1, 2, 3, 60]),
+            _ => small_exr(),
+        };
+        for (index, value) in changes {
+            // Most fields stand at the start.
+            let at = index.index(bytes.len().min(400));
+            bytes[at] = value;
+        }
+        if !keep_whole {
+            bytes.truncate(cut.index(bytes.len()));
+        }
+        if let Ok(environment) = load_within(&bytes, "x", Limits { max_texels: 1 << 16, ..Limits::default() }) {
+            let sound = |texels: &[[f32; 3]]| texels.iter().flatten().all(|x| (0.0..=MAX_RADIANCE).contains(x));
+            match &environment.source {
+                Source::Equirect(map) => prop_assert!(map.pixels.len() == map.width * map.height && sound(&map.pixels)),
+                Source::Levels(stored) => prop_assert!(stored.levels.iter().all(|level| sound(&level.texels))),
+            }
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Tests of the crate as its users see it, in one binary. Those that need the data folder (`HALFVECTOR_DATA`, default
+//! `../shared/data` beside the project) print a line and pass when it is not there.
+
+mod bake;
+mod files;
+mod truth;
+
+use std::path::PathBuf;
+
+/// A file of the data folder, or a printed line and nothing.
+fn data_file(path: &str) -> Option<Vec<u8>> {
+    let root = std::env::var_os("HALFVECTOR_DATA")
+        .map_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")), PathBuf::from);
+    let bytes = std::fs::read(root.join(path)).ok();
+    if bytes.is_none() {
+        println!("skipped: no {path} in the data folder");
+    }
+    bytes
+}
+
+/// The rows of a CSV file of the data folder, without its header.
+fn data_table(path: &str) -> Option<Vec<Vec<String>>> {
+    let text = String::from_utf8(data_file(path)?).expect("a CSV file is text");
+    Some(text.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect())
+}
+
+/// Relative error of a colour, as the issue measures it: against the truth, at least a thousandth of the mean radiance.
+fn relative_errors(value: [f32; 3], truth: [f64; 3], mean: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|c| (f64::from(value[c]) - truth[c]).abs() / truth[c].max(1e-3 * mean[c]))
+}
+
+/// Root of the mean square.
+fn rms(errors: &[f64]) -> f64 {
+    (errors.iter().map(|e| e * e).sum::<f64>() / errors.len().max(1) as f64).sqrt()
+}
