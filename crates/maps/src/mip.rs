@@ -38,7 +38,7 @@ pub enum MapKind {
 /// format (8-bit, 16-bit, float) and channels. NaN counts as 0.
 pub fn mip_chain(image: &Image, color_space: ColorSpace, kind: MapKind) -> Vec<Image> {
     let mut levels = vec![image.clone()];
-    let coding = Coding { color_space, kind };
+    let coding = Coding { color_space, kind, srgb8: &SRGB8 };
     let (width, height) = (image.width() as usize, image.height() as usize);
     if width == 1 && height == 1 {
         return levels;
@@ -68,36 +68,58 @@ struct Level {
 /// The level below one of `width` x `height` texels.
 fn halved(width: usize, height: usize, weighted: bool, texel: impl Fn(usize) -> [f32; 4] + Sync) -> Level {
     let (half_width, half_height) = ((width / 2).max(1), (height / 2).max(1));
+    let is_even = width.is_multiple_of(2) && height.is_multiple_of(2);
     let mut texels = vec![[0.0; 4]; half_width * half_height];
-    texels.par_chunks_mut(half_width).with_min_len(4096_usize.div_ceil(half_width)).enumerate().for_each(|(y, row)| {
-        let rows = footprint(height, y);
+    let rows = texels.par_chunks_mut(half_width).with_min_len(4096_usize.div_ceil(half_width)).enumerate();
+    rows.for_each(|(y, row)| {
         for (x, out) in row.iter_mut().enumerate() {
-            let columns = footprint(width, x);
-            let mut sum = [0.0; 4];
-            let mut weighted_sum = [0.0; 3];
-            for (j, wy) in rows.weights() {
-                for (i, wx) in columns.weights() {
-                    let c = texel(j * width + i);
-                    let w = wx * wy;
-                    for k in 0..4 {
-                        sum[k] += w * c[k];
-                    }
-                    if weighted {
-                        for k in 0..3 {
-                            weighted_sum[k] += w * c[3] * c[k];
-                        }
+            let mut mean = Mean::default();
+            if is_even {
+                let first = 2 * y * width + 2 * x;
+                for i in [first, first + 1, first + width, first + width + 1] {
+                    mean.add(0.25, texel(i));
+                }
+            } else {
+                for (j, row_weight) in footprint(height, y).weights() {
+                    for (i, weight) in footprint(width, x).weights() {
+                        mean.add(weight * row_weight, texel(j * width + i));
                     }
                 }
             }
-            if weighted && sum[3] > 0.0 {
-                for k in 0..3 {
-                    sum[k] = weighted_sum[k] / sum[3];
-                }
-            }
-            *out = sum;
+            *out = if weighted { mean.by_alpha() } else { mean.sum };
         }
     });
     Level { width: half_width, height: half_height, texels }
+}
+
+/// A sum of texels whose weights sum to 1.
+#[derive(Default)]
+struct Mean {
+    sum: [f32; 4],
+    /// The colours times their alphas.
+    visible: [f32; 3],
+}
+
+impl Mean {
+    fn add(&mut self, weight: f32, texel: [f32; 4]) {
+        for (sum, c) in self.sum.iter_mut().zip(texel) {
+            *sum += weight * c;
+        }
+        for (sum, c) in self.visible.iter_mut().zip(texel) {
+            *sum += weight * texel[3] * c;
+        }
+    }
+
+    /// The colour weighted by alpha, or the plain one where there is no alpha; and the mean alpha.
+    fn by_alpha(self) -> [f32; 4] {
+        let [.., alpha] = self.sum;
+        if alpha > 0.0 {
+            let [r, g, b] = self.visible.map(|c| c / alpha);
+            [r, g, b, alpha]
+        } else {
+            self.sum
+        }
+    }
 }
 
 /// What texel `i` of a level covers along one axis of the level above.
@@ -133,13 +155,14 @@ fn footprint(n: usize, i: usize) -> Footprint {
 struct Coding {
     color_space: ColorSpace,
     kind: MapKind,
+    srgb8: &'static Srgb8,
 }
 
 impl Coding {
     fn read_u8(self, texel: [u8; 4]) -> [f32; 4] {
         if self.is_srgb() {
             let [r, g, b, a] = texel;
-            let linear = |c: u8| SRGB8.linear[usize::from(c)];
+            let linear = |c: u8| self.srgb8.linear[usize::from(c)];
             [linear(r), linear(g), linear(b), f32::from(a) / 255.0]
         } else {
             self.vector(texel.map(|c| f32::from(c) / 255.0))
@@ -196,7 +219,7 @@ impl Coding {
             Texels::U8(_) => Texels::U8(each(level, |texel| {
                 let [r, g, b, a] = self.codes(texel);
                 if self.is_srgb() {
-                    [SRGB8.code(r), SRGB8.code(g), SRGB8.code(b), code_u8(a)]
+                    [self.srgb8.code(r), self.srgb8.code(g), self.srgb8.code(b), code_u8(a)]
                 } else {
                     [r, g, b, a].map(code_u8)
                 }
