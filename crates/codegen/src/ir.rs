@@ -165,6 +165,8 @@ impl Expr<'_> {
 /// An unconnected input with a number: a member of the `Parameters` struct, or a literal once it is folded.
 #[derive(Clone, Debug)]
 pub(crate) struct Input {
+    /// Index into [`Program::nodes`].
+    pub(crate) node: usize,
     pub(crate) socket: SocketRef,
     pub(crate) ty: Type,
     /// The document's value, as many components as the type has.

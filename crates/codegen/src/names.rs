@@ -2,7 +2,8 @@
 //! script; what leaves this file is an identifier of ASCII letters, digits and `_` that is free, or a comment that ends
 //! where its line ends.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
+use std::sync::OnceLock;
 
 use crate::link::Index;
 
@@ -63,6 +64,8 @@ const MAX_LENGTH: usize = 48;
 pub(crate) struct Namer<'i> {
     index: &'i Index,
     taken: HashSet<String>,
+    /// By base: the last number appended.
+    numbers: HashMap<String, u32>,
     scope: Scope,
 }
 
@@ -78,12 +81,12 @@ enum Scope {
 impl<'i> Namer<'i> {
     /// For module-scope and local names.
     pub(crate) fn new(index: &'i Index) -> Self {
-        Namer { index, taken: HashSet::new(), scope: Scope::Module }
+        Namer { index, taken: HashSet::new(), numbers: HashMap::new(), scope: Scope::Module }
     }
 
     /// For the members of one struct.
     pub(crate) fn of_members(index: &'i Index) -> Self {
-        Namer { index, taken: HashSet::new(), scope: Scope::Members }
+        Namer { index, taken: HashSet::new(), numbers: HashMap::new(), scope: Scope::Members }
     }
 
     /// A free name like `wished`, or like `otherwise` when nothing of `wished` can be kept.
@@ -102,11 +105,13 @@ impl<'i> Namer<'i> {
             base.insert_str(0, "n_");
         }
         let mut name = base.clone();
-        let mut number = 2;
+        // Where the last one of this base ended: ten thousand nodes may have one label.
+        let mut number = self.numbers.get(&base).copied().unwrap_or(1);
         while self.is_taken(&name) {
-            name = format!("{base}_{number}");
             number += 1;
+            name = format!("{base}_{number}");
         }
+        self.numbers.insert(base, number);
         self.taken.insert(name.clone());
         name
     }
@@ -123,15 +128,25 @@ impl<'i> Namer<'i> {
     }
 
     fn is_taken(&self, name: &str) -> bool {
-        let reserved = || naga::keywords::wgsl::RESERVED.contains(&name);
-        let module = || {
-            FRAME.contains(&name)
-                || self.index.has(name)
-                || naga::keywords::wgsl::BUILTIN_IDENTIFIERS.contains(&name)
-                || halfvector_graph::value::Type::from_wgsl(name).is_some()
-        };
-        self.taken.contains(name) || reserved() || (self.scope == Scope::Module && module())
+        self.taken.contains(name)
+            || keywords().contains(name)
+            || (self.scope == Scope::Module && (own_words().contains(name) || self.index.has(name)))
     }
+}
+
+/// Words that WGSL reserves.
+fn keywords() -> &'static HashSet<&'static str> {
+    static WORDS: OnceLock<HashSet<&'static str>> = OnceLock::new();
+    WORDS.get_or_init(|| naga::keywords::wgsl::RESERVED.iter().copied().collect())
+}
+
+/// Names of the frame, and WGSL's built-in functions and types.
+fn own_words() -> &'static HashSet<&'static str> {
+    static WORDS: OnceLock<HashSet<&'static str>> = OnceLock::new();
+    WORDS.get_or_init(|| {
+        let types = ["vec2f", "vec3f", "vec4f", "mat3x3f", "mat4x4f", "texture_2d", "texture_cube"];
+        FRAME.iter().chain(naga::keywords::wgsl::BUILTIN_IDENTIFIERS).copied().chain(types).collect()
+    })
 }
 
 /// Lower snake case of the ASCII letters and digits in a text: `Rust (old) Höhe 2` is `rust_old_h_he_2`. Runs of anything

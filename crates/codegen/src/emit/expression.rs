@@ -83,7 +83,7 @@ impl Names {
         }
         for (number, input) in program.inputs.iter().enumerate() {
             if input.parameter.is_none() {
-                let label = program.nodes.iter().find(|n| *n.id == input.socket.node).map_or("", |n| n.label);
+                let label = program.nodes[input.node].label;
                 let wished = format!("{label} {}", input.socket.socket);
                 names.inputs[number] = members.name(&wished, &format!("{} {}", input.socket.node, input.socket.socket));
             }

@@ -1,12 +1,12 @@
 //! What a shader reads of the outside, as WGSL declarations and as reflection, from the same lists.
 
-use halfvector_graph::document::{Document, SocketRef};
+use halfvector_graph::document::Document;
 use halfvector_graph::value::Type;
 
 use crate::emit::expression::{EnvironmentTexture, Names, Uses, ViewMember, lights_member};
 use crate::emit::text::Text;
 use crate::emit::vertex::VARYINGS;
-use crate::ir::Program;
+use crate::ir::{Input, Program};
 use crate::passes::specialise::Plan;
 use crate::reflection::{
     Binding, Reflection, Resource, SamplerSource, ShaderParameter, TextureSource, UniformBlock, UniformSource,
@@ -197,15 +197,15 @@ impl Interface<'_, '_> {
                 label: parameter.label.clone().unwrap_or_else(|| parameter.name.clone()),
                 ty: input.ty,
                 default: input.value.clone(),
-                range: parameter.range.or_else(|| self.soft_range(&input.socket)),
+                range: parameter.range.or_else(|| self.soft_range(input)),
             })
         });
         exposed.collect()
     }
 
-    fn soft_range(&self, socket: &SocketRef) -> Option<[f32; 2]> {
-        let node = self.program.nodes.iter().find(|n| *n.id == socket.node)?;
-        node.def.inputs.iter().find(|i| i.name == socket.socket)?.range
+    fn soft_range(&self, input: &Input) -> Option<[f32; 2]> {
+        let def = self.program.nodes[input.node].def;
+        def.inputs.iter().find(|i| i.name == input.socket.socket)?.range
     }
 }
 

@@ -47,9 +47,11 @@ pub(crate) fn fold_stage<'a>(stage: &mut Stage<'a>, index: &Index, faults: &mut 
             _ => None,
         };
         let (node, hint) = (entry.node, entry.hint);
+        // Members and conversions of what is not finite are no faults of their own.
+        let computed = matches!(entry.expr, Expr::Call { .. } | Expr::Builtin { .. });
         Some(match folded {
             Some(Folded::Literal(literal)) => {
-                if !literal.is_finite() {
+                if computed && !literal.is_finite() {
                     faults.push(NotFinite { node });
                 }
                 arena.push(Entry { expr: Expr::Literal(literal), ty: Ty::Value(literal.ty), node, hint })

@@ -186,6 +186,7 @@ impl<'a, 't> Lowering<'a, 't> {
             return Ok(arena.literal(ty, &components));
         }
         let input = table.input(node, index, || Input {
+            node,
             socket: SocketRef { node: info.id.clone(), socket: def.name.clone() },
             ty,
             value: crate::ir::Literal::new(ty, &components).components(),

@@ -19,7 +19,7 @@ pub(crate) const COMPENSATION_MIN_F0: f32 = 0.08;
 /// The most that leaving the compensation out changes the light that a surface reflects, as a part of the light that
 /// falls on it from a uniform environment: the greatest f0 (f0 a + b) (1 - E)/E with E = a + b at f0 = 0.08. A test
 /// computes it by quadrature.
-pub(crate) const COMPENSATION_BOUND: f32 = 0.008;
+pub(crate) const COMPENSATION_BOUND: f32 = 0.007;
 
 /// What the fragment shader shades with.
 #[derive(Clone, Debug, Default)]
@@ -116,7 +116,7 @@ pub(crate) fn specialise(
     fold: Fold,
     constants: Constants,
 ) -> Plan {
-    let mut plan = decide(program, document, needs, fold, constants);
+    let plan = decide(program, document, needs, fold, constants);
     let metal = metal(program, fold);
     let weightless = Known { program, fold }.surface("specular", 0.0);
     let full = Known { program, fold }.surface("specular", 1.0);

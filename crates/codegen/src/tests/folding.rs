@@ -30,7 +30,7 @@ fn f0_is_folded() {
 fn identities_vanish() {
     let document = material(
         "",
-        r#""noise": {"node": "procedural/value_noise"},
+        r#""noise": {"node": "procedural/value_noise_2d"},
            "same": {"node": "math/multiply", "label": "Same", "values": {"b": 1.0}},
            "also": {"node": "math/add", "label": "Also", "values": {"b": 0.0}},
            "still": {"node": "math/mix", "label": "Still", "values": {"b": 7.0, "t": 0.0}}"#,
@@ -62,7 +62,7 @@ fn what_is_not_finite_is_a_problem_of_its_node() {
 #[test]
 fn live_numbers_change_no_text() {
     let mut document = maps();
-    for (id, node) in [("scaled", "math/multiply"), ("noise", "procedural/fbm")] {
+    for (id, node) in [("scaled", "math/multiply"), ("noise", "procedural/fbm_2d")] {
         document.nodes.insert(
             id.into(),
             super::document(&format!(
@@ -123,7 +123,7 @@ fn lobe_weights_specialise_live() {
     assert_eq!(mixed, live(r#""metallic": 0.25, "emission": [0, 2, 0], "occlusion": 0.9"#));
     assert!(!live(r#""metallic": 1"#).contains("Diffuse("));
     assert!(!live(r#""specular": 0"#).contains("Specular("));
-    assert!(!live("").contains("emission"));
+    assert!(!live("").contains("surface_emission"));
     assert!(!live("").contains("f0_from_metallic"));
 }
 
@@ -160,7 +160,7 @@ fn the_order_of_links_changes_nothing() {
 
 #[test]
 fn equal_nodes_are_computed_once() {
-    let noise = |id: &str| format!(r#""{id}": {{"node": "procedural/value_noise"}}"#);
+    let noise = |id: &str| format!(r#""{id}": {{"node": "procedural/value_noise_2d"}}"#);
     let document = material(
         "",
         &format!("{}, {}", noise("one"), noise("two")),
@@ -168,5 +168,5 @@ fn equal_nodes_are_computed_once() {
     );
     let text = exported(&document, &sun()).wgsl;
     let entry = text.split("fn fs_main").nth(1).expect("an entry point").split("\n}").next().expect("a body");
-    assert_eq!(entry.matches("node_procedural_value_noise").count(), 1, "{entry}");
+    assert_eq!(entry.matches("node_procedural_value_noise_2d(").count(), 1, "{entry}");
 }
