@@ -35,7 +35,7 @@ fn node_markdown(def: &NodeDef, out: &mut String) {
     if !def.synonyms.is_empty() {
         let _ = write!(out, "; also: {}", def.synonyms.join(", "));
     }
-    let _ = write!(out, "\n\n{}\n", def.help);
+    let _ = write!(out, "\n\n{}\n", help_markdown(&def.help));
     if !def.inputs.is_empty() {
         out.push_str("\n| input | type | default | range | unit | |\n|---|---|---|---|---|---|\n");
         for input in &def.inputs {
@@ -55,6 +55,24 @@ fn node_markdown(def: &NodeDef, out: &mut String) {
     for output in &def.outputs {
         let _ = writeln!(out, "| `{}` | {} | {} |", output.name, type_name(output.ty), cell(&output.help));
     }
+}
+
+/// Help with its indented lines, equations, in a block of their own: Markdown would run them together.
+fn help_markdown(help: &str) -> String {
+    let mut out = String::new();
+    let mut in_block = false;
+    for line in help.lines() {
+        let equation = line.strip_prefix("  ");
+        if equation.is_some() != in_block {
+            out.push_str(if in_block { "```\n\n" } else { "\n```text\n" });
+            in_block = !in_block;
+        }
+        let _ = writeln!(out, "{}", equation.unwrap_or(line));
+    }
+    if in_block {
+        out.push_str("```\n");
+    }
+    out.trim().into()
 }
 
 /// Text for a cell of a table: a bar would end it.
@@ -163,4 +181,16 @@ pub fn methods_json() -> Json {
         })
         .collect();
     json!({ "methods": terms })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::help_markdown;
+
+    #[test]
+    fn equations_stand_in_blocks() {
+        assert_eq!(help_markdown("Two lines\nof text."), "Two lines\nof text.");
+        assert_eq!(help_markdown("With T:\n  u = 1\n  v = 2\nheld."), "With T:\n\n```text\nu = 1\nv = 2\n```\n\nheld.");
+        assert_eq!(help_markdown("A:\n  u = 1"), "A:\n\n```text\nu = 1\n```");
+    }
 }

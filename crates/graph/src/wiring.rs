@@ -4,6 +4,7 @@
 //! nodes that do not exist are kept as answers and skipped in orders. Everything is iterative: a chain of 10,000 nodes
 //! needs no deep stack.
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 
 use crate::document::{Document, Link, SocketRef};
@@ -44,9 +45,8 @@ impl<'d> Wiring<'d> {
         let mut incoming = vec![BTreeMap::new(); ids.len()];
         let mut outgoing = vec![Vec::new(); ids.len()];
         for link in &document.links {
-            if let Some(&to) = index.get(link.to.node.as_str())
-                && let std::collections::btree_map::Entry::Vacant(entry) = incoming[to].entry(link.to.socket.as_str())
-            {
+            let Some(&to) = index.get(link.to.node.as_str()) else { continue };
+            if let Entry::Vacant(entry) = incoming[to].entry(link.to.socket.as_str()) {
                 entry.insert(&link.from);
                 if let Some(&from) = index.get(link.from.node.as_str()) {
                     outgoing[from].push(link);

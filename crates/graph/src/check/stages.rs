@@ -31,9 +31,11 @@ fn vertex_stage(checker: &mut Checker, id: &str) {
     for input in &def.inputs {
         let is_free = checker.wiring.incoming(id, &input.name).is_none()
             && !checker.document.nodes[id].values.contains_key(&input.name);
-        if let (true, Default::Context(name)) = (is_free, &input.default)
-            && let Some(message) = context(name).and_then(vertex_stage_lacks)
-        {
+        let reads = match &input.default {
+            Default::Context(name) if is_free => context(name),
+            _ => None,
+        };
+        if let Some(message) = reads.and_then(vertex_stage_lacks) {
             checker.wrong(id, Some(&input.name), message);
         }
     }
@@ -59,10 +61,11 @@ fn roughness(checker: &mut Checker, surface: &str) {
             _ => None,
         }
     };
-    if checker.wiring.incoming(surface, SOCKET).is_none()
-        && let Some(Value::Number(x)) = node.values.get(SOCKET).or_else(default)
-        && *x < PUNCTUAL_ROUGHNESS_FLOOR
-    {
+    let constant = match (checker.wiring.incoming(surface, SOCKET), node.values.get(SOCKET).or_else(default)) {
+        (None, Some(Value::Number(x))) => Some(*x),
+        _ => None,
+    };
+    if let Some(x) = constant.filter(|x| *x < PUNCTUAL_ROUGHNESS_FLOOR) {
         let message = format!(
             "punctual lights draw a roughness of {x} as {PUNCTUAL_ROUGHNESS_FLOOR}, for a sharper highlight would be smaller than a pixel; environments use {x}"
         );

@@ -170,10 +170,10 @@ impl Reader<'_> {
 
     fn default(&mut self, argument: &ArgumentDoc, ty: SocketType) -> Option<Default> {
         let (line, name) = (argument.line, &argument.name);
-        if let (DefaultDoc::Numbers(numbers), Some([lo, hi])) = (&argument.default, argument.range)
-            && numbers.iter().any(|x| !(lo..=hi).contains(x))
-        {
-            self.slip(line, format!("the default of `{name}` lies outside its range"));
+        if let (DefaultDoc::Numbers(numbers), Some([lo, hi])) = (&argument.default, argument.range) {
+            if numbers.iter().any(|x| !(lo..=hi).contains(x)) {
+                self.slip(line, format!("the default of `{name}` lies outside its range"));
+            }
         }
         if argument.range.is_some() && matches!(ty, SocketType::Texture | SocketType::Value(Type::Bool)) {
             self.slip(line, format!("`{name}` has no range: it is no number"));
@@ -270,8 +270,9 @@ impl Reader<'_> {
     fn stand_ins(&mut self, doc: &NodeDoc, def: &mut NodeDef) {
         let own = self.signatures.get(self.source, &def.function.name);
         let own_result = own.map(|signature| signature.result);
-        if let Some((line, name)) = &doc.vertex
-            && let Some((function, result)) = self.stand_in(*line, name, def)
+        let vertex = doc.vertex.as_ref();
+        if let Some((line, name, (function, result))) =
+            vertex.and_then(|(line, name)| Some((line, name, self.stand_in(*line, name, def)?)))
         {
             if Some(&result) != own_result.as_ref() {
                 self.slip(*line, format!("`{name}` returns another type than the node"));
