@@ -1,7 +1,8 @@
 // Fresnel reflectance. `f0` is the reflectance at normal incidence, `f90` the one at grazing incidence.
 
-// Nearest that f0 / f90 comes to 1: there the index of refraction that it implies is infinite.
-const F0_CEILING: f32 = 0.999999;
+// Nearest that f0 / f90 comes to 1, where the index of refraction that it implies is infinite: 1 - 2^-20, an exact f32,
+// so that 1 - f0 / f90 is exact there too.
+const F0_CEILING: f32 = 0.99999904632568359375;
 // Smallest f90 divided by: 0 / 0 where a specular weight of 0 has scaled both f0 and f90 to nothing.
 const F90_FLOOR: f32 = 1e-30;
 // Largest index of refraction; its square must not overflow.

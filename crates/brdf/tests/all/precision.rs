@@ -76,7 +76,7 @@ fn cases() -> Vec<Case> {
         case!("f_schlick", 8.0, 0.02, |u| {
             f_schlick([unit(u[0]) * unit(u[1]); 3], [unit(u[1]); 3], cosine(u[2]))[0]
         }),
-        case!("f_exact", 32.0, 0.02, |u| f_exact([unit(u[0]); 3], [R::ONE; 3], cosine(u[2]))[0]),
+        case!("f_exact", 64.0, 0.02, |u| f_exact([unit(u[0]) * R::of(0.875); 3], [R::ONE; 3], cosine(u[2]))[0]),
         case!("f_dielectric", 16.0, 1e-4, |u| f_dielectric(unit(u[0]) * R::of(2.0) + R::ONE, cosine(u[1]))),
         case!("f0_from_ior", 2.0, 0.0, |u| f0_from_ior(unit(u[0]) * R::of(2.0) + R::ONE)),
         case!("diffuse_burley", 8.0, 0.0, |u| diffuse_burley(
