@@ -62,7 +62,7 @@ fn tone_map_pbr_neutral(c: vec3f) -> vec3f {
     let toe = select(0.04, lowest - 6.25 * lowest * lowest, lowest < 0.08);
     let x = positive - vec3f(toe);
     let peak = max(x.r, max(x.g, x.b));
-    let start = 0.76;
+    let start: f32 = 0.76;
     if peak < start {
         return x;
     }

@@ -14,7 +14,7 @@ fn normal_from_texel(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
 /// "Building an Orthonormal Basis, Revisited": with s = +-1, the sign of n.z,
 ///   a = -1 / (s + n.z),  T = (1 + s n.x^2 a, s n.x n.y a, -s n.x),  and B = cross(n, T).
 fn tangent_from_normal(normal: vec3f) -> vec3f {
-    let s = select(-1.0, 1.0, normal.z >= 0.0);
+    let s = f32(select(-1.0, 1.0, normal.z >= 0.0));
     let a = -1.0 / (s + normal.z);
     return vec3f(1.0 + s * normal.x * normal.x * a, s * normal.x * normal.y * a, -s * normal.x);
 }

@@ -1,0 +1,160 @@
+//! The one table of twins: functions that are written in WGSL and in Rust, with the domain on which they are compared and
+//! how far apart they may be. A test proves that no function is missing.
+
+use halfvector_brdf::frame::{Frame, frame_from_normal, half_from_light};
+use halfvector_brdf::lobe_diffuse::{Diffuse, diffuse_environment, diffuse_eval};
+use halfvector_brdf::lobe_specular::{Specular, specular_environment, specular_eval};
+use halfvector_brdf::{dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter};
+use halfvector_ibl::environment;
+use halfvector_maps::{color, height, normal};
+use halfvector_scene::light::{
+    DirectionalLight, LightSample, PointLight, SpotLight, directional_light_sample, point_light_sample,
+    spot_light_sample,
+};
+use halfvector_scene::tone_map;
+
+use super::domain::Domain::{self, *};
+
+/// A function that is written twice.
+pub(crate) struct Twin {
+    /// The WGSL file, below `shaders/`.
+    pub(crate) file: &'static str,
+    /// The function's name, in both languages.
+    pub(crate) name: &'static str,
+    /// What its arguments are drawn from, in order.
+    pub(crate) domain: &'static [Domain],
+    /// The most that the GPU's f32 may differ from Rust's f64, in ulp of a result or of `floor`, whichever is more.
+    pub(crate) ulp: f64,
+    /// Size of a result below which the error of `floor` itself is allowed.
+    pub(crate) floor: f64,
+    /// Whether it is compared in f64 on the GPU too; WGSL's pow, exp2 and log2 exist there in f32 only.
+    pub(crate) f64: bool,
+    /// The Rust function on the numbers that its arguments are made of.
+    pub(crate) rust: fn(&[f64]) -> Vec<f64>,
+}
+
+/// Library functions of WGSL without a twin that can be called, and why.
+pub(crate) const WGSL_ONLY: &[(&str, &str)] = &[
+    ("cos_sin_atan", "private in Rust: compared through normal_rotation_report"),
+    ("cos_sin_atan2", "private in Rust: compared through both normal_rotation functions"),
+    ("dfg_from_table", "takes a texture"),
+    ("environment_sample", "takes a texture"),
+];
+
+/// Public functions of the twins' Rust files that WGSL has not, and why.
+pub(crate) const RUST_ONLY: &[(&str, &str)] = &[
+    ("lights_by_kind", "sorts a scene's lights for the uniform buffer"),
+    ("parse_light", "reads the command line"),
+    ("spot_cos_scale_offset", "makes a uniform once, from angles"),
+    ("spot_effective_solid_angle", "turns lumens into candela when a file is read"),
+    ("tone_map_from_name", "reads the command line"),
+    ("tone_mapped", "chooses a tone map by name; a shader is linked with the one it needs"),
+];
+
+const FLOAT: bool = false;
+const DOUBLE: bool = true;
+
+macro_rules! twin {
+    ($file:literal $name:literal, [$($domain:expr),*], $ulp:expr, $floor:expr, $f64:expr, |$x:pat_param| $body:expr) => {
+        Twin {
+            file: $file, name: $name, domain: &[$($domain),*], ulp: $ulp, floor: $floor, f64: $f64,
+            rust: |$x| { let r = $body; r.to_vec() },
+        }
+    };
+}
+
+/// N numbers from `at` on.
+fn v<const N: usize>(x: &[f64], at: usize) -> [f64; N] {
+    x[at..at + N].try_into().expect("as many numbers as the WGSL function takes")
+}
+
+fn frame(x: &[f64]) -> Frame<f64> {
+    Frame { normal: v(x, 0), view_dir: v(x, 3), n_dot_v: x[6] }
+}
+
+fn specular(x: &[f64], at: usize) -> Specular<f64> {
+    Specular { f0: v(x, at), f90: v(x, at + 3), alpha: x[at + 6] }
+}
+
+fn diffuse(x: &[f64], at: usize) -> Diffuse<f64> {
+    Diffuse { color: v(x, at), perceptual_roughness: x[at + 3] }
+}
+
+fn sample(s: LightSample<f64>) -> [f64; 6] {
+    let ([x, y, z], [r, g, b]) = (s.dir, s.illuminance);
+    [x, y, z, r, g, b]
+}
+
+/// All twins, by file.
+#[rustfmt::skip]
+pub(crate) const TWINS: &[Twin] = &[
+    twin!("brdf/dfg.wgsl" "dfg_karis", [Cosine, Roughness], 16.0, 1.0, FLOAT, |x| dfg::dfg_karis(x[0], x[1])),
+    twin!("brdf/dfg.wgsl" "specular_albedo", [Reflectances(1.0), Pair(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| dfg::specular_albedo(v(x, 0), v(x, 3), v(x, 6))),
+    twin!("brdf/diffuse.wgsl" "diffuse_burley", [Cosine, Cosine, Cosine, Roughness], 8.0, 0.0, DOUBLE, |x| [diffuse::diffuse_burley(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/diffuse.wgsl" "diffuse_lambert", [Cosine, Cosine, Cosine, Roughness], 0.5, 0.0, DOUBLE, |x| [diffuse::diffuse_lambert(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/frame.wgsl" "frame_from_normal", [Unit, Unit], 2.0, 1.0, DOUBLE, |x| {
+        let f = frame_from_normal(v(x, 0), v(x, 3));
+        [x[0], x[1], x[2], x[3], x[4], x[5], f.n_dot_v]
+    }),
+    twin!("brdf/frame.wgsl" "half_from_light", [Frame, FrontOfLast], 8.0, 1.0, DOUBLE, |x| {
+        let h = half_from_light(frame(x), v(x, 7));
+        [h.n_dot_l, h.n_dot_h, h.l_dot_h, h.sin2_theta_h]
+    }),
+    twin!("brdf/fresnel.wgsl" "f0_from_ior", [Range(1.0, 3.0)], 6.0, 0.0, DOUBLE, |x| [fresnel::f0_from_ior(x[0])]),
+    twin!("brdf/fresnel.wgsl" "f_dielectric", [Range(0.3, 4.0), Cosine], 32.0, 0.01, DOUBLE, |x| [fresnel::f_dielectric(x[0], x[1])]),
+    // f0 / f90 nearer to 1 is the index of a metal: eta there has 1 / (1 - f0/f90) times the rounding of the ratio.
+    twin!("brdf/fresnel.wgsl" "f_exact", [Reflectances(0.9), Cosine], 64.0, 0.02, DOUBLE, |x| fresnel::f_exact(v(x, 0), v(x, 3), x[6])),
+    twin!("brdf/fresnel.wgsl" "f_schlick", [Reflectances(1.0), Cosine], 8.0, 0.02, DOUBLE, |x| fresnel::f_schlick(v(x, 0), v(x, 3), x[6])),
+    twin!("brdf/ggx.wgsl" "alpha_from_perceptual_roughness", [Range(-0.5, 1.5)], 0.5, 0.0, DOUBLE, |x| [ggx::alpha_from_perceptual_roughness(x[0])]),
+    twin!("brdf/ggx.wgsl" "d_ggx", [HalfAngle, Alpha], 12.0, 0.0, DOUBLE, |x| [ggx::d_ggx(x[0], x[1], x[2])]),
+    twin!("brdf/ggx.wgsl" "v_smith_ggx_correlated", [Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_correlated(x[0], x[1], x[2])]),
+    twin!("brdf/ggx.wgsl" "v_smith_ggx_separable", [Cosine, Cosine, Alpha], 10.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_separable(x[0], x[1], x[2])]),
+    twin!("brdf/lobe_diffuse.wgsl" "diffuse_environment", [Color(0.0, 1.0), Roughness, Color(0.0, 1e4)], 1.0, 0.0, DOUBLE, |x| diffuse_environment(diffuse(x, 0), v(x, 4))),
+    twin!("brdf/lobe_diffuse.wgsl" "diffuse_eval", [Frame, FrontOfLast, Color(0.0, 1.0), Roughness], 8.0, 0.3, DOUBLE, |x| diffuse_eval(frame(x), v(x, 7), diffuse(x, 10))),
+    // The directions' own rounding is 1 / alpha times as large in D: roughness from 0.3 here, all of it in d_ggx and in
+    // the test against the truth.
+    twin!("brdf/lobe_specular.wgsl" "specular_eval", [Frame, FrontOfLast, Reflectances(1.0), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| specular_eval(frame(x), v(x, 7), specular(x, 10))),
+    twin!("brdf/lobe_specular.wgsl" "specular_environment", [Reflectances(1.0), Alpha, Color(0.0, 1e4), Pair(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| specular_environment(specular(x, 0), v(x, 7), v(x, 10))),
+    twin!("brdf/metallic_roughness.wgsl" "diffuse_color", [Color(0.0, 1.0), Range(0.0, 1.0)], 2.0, 0.0, DOUBLE, |x| metallic_roughness::diffuse_color(v(x, 0), x[3])),
+    twin!("brdf/metallic_roughness.wgsl" "f0_from_metallic", [Color(0.0, 1.0), Range(0.0, 1.0), Range(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| metallic_roughness::f0_from_metallic(v(x, 0), x[3], x[4])),
+    twin!("brdf/multiscatter.wgsl" "energy_compensation", [Color(0.0, 1.0), Pair(0.0, 0.5)], 6.0, 0.0, DOUBLE, |x| multiscatter::energy_compensation(v(x, 0), v(x, 3))),
+    twin!("color.wgsl" "gamma_from_linear", [Color(-1.0, 8.0)], 32.0, 0.01, FLOAT, |x| color::gamma_from_linear(v(x, 0))),
+    twin!("color.wgsl" "linear_from_srgb", [Color(-1.0, 2.0)], 32.0, 0.001, FLOAT, |x| color::linear_from_srgb(v(x, 0))),
+    twin!("color.wgsl" "luminance", [Color(0.0, 100.0)], 4.0, 0.0, DOUBLE, |x| [color::luminance(v(x, 0))]),
+    twin!("color.wgsl" "srgb_from_linear", [Color(-1.0, 8.0)], 32.0, 0.01, FLOAT, |x| color::srgb_from_linear(v(x, 0))),
+    twin!("ibl/environment.wgsl" "irradiance_sh2", [Harmonics, Unit], 32.0, 1.0, DOUBLE, |x| {
+        environment::irradiance_sh2([0, 1, 2, 3, 4, 5, 6, 7, 8].map(|i| v(x, 4 * i)), v(x, 36))
+    }),
+    twin!("ibl/environment.wgsl" "lod_linear", [Roughness, Range(1.0, 12.0)], 2.0, 0.0, DOUBLE, |x| [environment::lod_linear(x[0], x[1])]),
+    twin!("ibl/environment.wgsl" "lod_report", [Roughness, Range(1.0, 12.0)], 2.0, 0.0, DOUBLE, |x| [environment::lod_report(x[0], x[1])]),
+    twin!("ibl/environment.wgsl" "rotate_about_y", [Unit, Pair(-1.0, 1.0)], 4.0, 1.0, DOUBLE, |x| environment::rotate_about_y(v(x, 0), v(x, 3))),
+    twin!("light.wgsl" "directional_light_sample", [Unit, Color(0.0, 1e5), Point(10.0)], 0.0, 0.0, DOUBLE, |x| {
+        sample(directional_light_sample(DirectionalLight { direction: v(x, 0), illuminance: v(x, 3) }, v(x, 6)))
+    }),
+    twin!("light.wgsl" "point_light_sample", [Point(0.02), Color(0.0, 1e3), Point(0.02)], 8.0, 0.0, DOUBLE, |x| {
+        sample(point_light_sample(PointLight { position: v(x, 0), intensity: v(x, 3) }, v(x, 6)))
+    }),
+    // Within the cone's edge the light falls to 0 by a difference: errors are those of the light on the axis, <= 1.
+    twin!("light.wgsl" "spot_light_sample", [Color(1.0, 4.0), Color(0.0, 1.0), Unit, Pair(-8.0, 8.0), Point(0.5)], 64.0, 1.0, DOUBLE, |x| {
+        let light = SpotLight { position: v(x, 0), intensity: v(x, 3), direction: v(x, 6), cos_scale_offset: v(x, 9) };
+        sample(spot_light_sample(light, v(x, 11)))
+    }),
+    twin!("maps/height.wgsl" "displaced", [Point(10.0), Unit, Range(-1.0, 1.0)], 2.0, 1.0, DOUBLE, |x| height::displaced(v(x, 0), v(x, 3), x[6])),
+    twin!("maps/height.wgsl" "normal_from_height", [Footprint, Range(-0.01, 0.01), Range(-0.01, 0.01)], 32.0, 1.0, DOUBLE, |x| {
+        height::normal_from_height(v(x, 0), v(x, 3), v(x, 6), x[9], x[10])
+    }),
+    twin!("maps/normal.wgsl" "normal_from_texel", [Color(0.0, 1.0), Range(0.0, 2.0), Bool], 8.0, 1.0, DOUBLE, |x| normal::normal_from_texel(v(x, 0), x[3], x[4] != 0.0)),
+    twin!("maps/normal.wgsl" "normal_rotation_fixed", [Unit, Vector], 16.0, 1.0, DOUBLE, |x| normal::normal_rotation_fixed(v(x, 0), v(x, 3))),
+    twin!("maps/normal.wgsl" "normal_rotation_report", [Unit, Vector], 16.0, 1.0, DOUBLE, |x| normal::normal_rotation_report(v(x, 0), v(x, 3))),
+    twin!("maps/normal.wgsl" "normal_tbn", [UnitUp, Unit, TangentOfLast], 32.0, 1.0, DOUBLE, |x| normal::normal_tbn(v(x, 0), v(x, 3), v(x, 6))),
+    twin!("maps/normal.wgsl" "tangent_from_normal", [Unit], 8.0, 1.0, DOUBLE, |x| normal::tangent_from_normal(v(x, 0))),
+    twin!("math.wgsl" "finite_or_zero", [Color(-1e38, 1e38)], 0.0, 0.0, DOUBLE, |x| math::finite_or_zero(v(x, 0))),
+    twin!("math.wgsl" "normalize_or", [Vector, Unit], 6.0, 0.0, DOUBLE, |x| math::normalize_or(v(x, 0), v(x, 3))),
+    twin!("math.wgsl" "pow5", [Range(-2.0, 2.0)], 3.0, 0.0, DOUBLE, |x| [math::pow5(x[0])]),
+    twin!("tone_map.wgsl" "agx_contrast", [Color(0.0, 1.0)], 64.0, 1.0, DOUBLE, |x| tone_map::agx_contrast(v(x, 0))),
+    twin!("tone_map.wgsl" "tone_map_aces", [Color(-1.0, 20.0)], 16.0, 0.1, DOUBLE, |x| tone_map::tone_map_aces(v(x, 0))),
+    twin!("tone_map.wgsl" "tone_map_agx", [Color(-1.0, 20.0)], 256.0, 1.0, FLOAT, |x| tone_map::tone_map_agx(v(x, 0))),
+    twin!("tone_map.wgsl" "tone_map_none", [Color(-1.0, 2.0)], 0.0, 0.0, DOUBLE, |x| tone_map::tone_map_none(v(x, 0))),
+    twin!("tone_map.wgsl" "tone_map_pbr_neutral", [Color(-1.0, 20.0)], 64.0, 1.0, DOUBLE, |x| tone_map::tone_map_pbr_neutral(v(x, 0))),
+    twin!("tone_map.wgsl" "tone_map_reinhard", [Color(-1.0, 20.0)], 6.0, 0.0, DOUBLE, |x| tone_map::tone_map_reinhard(v(x, 0))),
+];
