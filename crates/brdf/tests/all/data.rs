@@ -42,9 +42,19 @@ pub(crate) fn table(name: &str) -> Option<Table> {
         println!("skipped: no {}", path.display());
         return None;
     };
+    Some(parse(&text))
+}
+
+/// The points of the BRDF's truth: the few that stand in this package, and all where there is the folder of truth data.
+pub(crate) fn points() -> Vec<Table> {
+    let own = parse(include_str!("../data/brdf_points.csv"));
+    [Some(own), table("brdf_points_shared.csv")].into_iter().flatten().collect()
+}
+
+fn parse(text: &str) -> Table {
     let mut lines = text.lines().map(cells);
     let header = lines.next().expect("a header line");
-    Some(Table { header, rows: lines.collect() })
+    Table { header, rows: lines.collect() }
 }
 
 /// The cells of a line; a cell in double quotes may hold commas.

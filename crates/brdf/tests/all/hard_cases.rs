@@ -112,6 +112,7 @@ fn both_at_the_horizon() {
 fn roughness_0() {
     // A delta cannot be drawn from a punctual light: 0, in the mirror direction too.
     assert_eq!(d_peak(0.0), 0.0);
+    assert_eq!([f32::NAN, 2.0, -1.0, f32::INFINITY].map(alpha_from_perceptual_roughness), [1.0, 1.0, 0.0, 1.0]);
     assert_eq!(specular_eval(frame(UP), UP, mirror(0.0)), [0.0; 3]);
 }
 
