@@ -1,1 +1,30 @@
-//! Scenes: meshes, glTF, cameras, lights, environments, tone maps, files.
+//! Scenes: what a material is seen on, from where and in which light.
+//!
+//! * [`scene::Scene`] is the whole: meshes, materials, objects, images, camera, lights, environment, exposure.
+//! * [`file`](mod@file) reads `*.scene.json`, [`gltf`] reads `.glb` and `.gltf`, [`mesh`] has the built-in shapes.
+//! * [`light`] and [`tone_map`] are twins of the WGSL files of the same names, generic over `f32` and `f64`.
+//! * [`needs`] says what a material's shader has to serve.
+//!
+//! Right-handed, +Y up, metres; colours are linear Rec. 709. Nothing is drawn here and no environment is baked.
+
+pub mod camera;
+pub mod environment;
+pub mod file;
+pub mod gltf;
+pub mod images;
+pub mod light;
+pub mod mesh;
+mod needs;
+pub mod parameters;
+mod real;
+pub mod scene;
+pub mod tone_map;
+
+pub use camera::Camera;
+pub use environment::{Background, EnvironmentSource};
+pub use file::load_scene;
+pub use images::ImageStore;
+pub use light::Light;
+pub use mesh::{BuiltinMesh, Mesh};
+pub use needs::needs;
+pub use scene::{Exposure, MeshSource, Object, Scene, SceneError, SceneMaterial};

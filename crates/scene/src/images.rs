@@ -1,0 +1,219 @@
+//! The pictures that materials refer to: found, decoded once each, all cores at work.
+//!
+//! The store holds texels as they stand in the files. How they are coded (sRGB or linear), and their smaller levels, are
+//! the renderers' business, as one picture may be read both ways.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::path::{Component, Path, PathBuf};
+
+use halfvector_graph::document::Document;
+use halfvector_graph::value::{ImageRef, Value};
+use halfvector_maps::{Image, Limits};
+use rayon::prelude::*;
+
+use crate::environment::read_limited;
+use crate::gltf::{self, Asset, GltfError};
+use crate::scene::SceneMaterial;
+
+/// Largest image file that is read, in bytes.
+pub const MAX_FILE_BYTES: u64 = 1 << 30;
+
+/// Decoded pictures by the file that they came from.
+#[derive(Clone, Debug, Default)]
+pub struct ImageStore {
+    images: Vec<Image>,
+    by_key: HashMap<ImageKey, usize>,
+}
+
+/// Where a picture lies: a file, or an image within a glTF file.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct ImageKey {
+    path: PathBuf,
+    in_gltf: Option<usize>,
+}
+
+/// Why an image was not loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum ImageError {
+    /// The file could not be read.
+    #[error("node `{node}` of the material `{material}`: the image {} could not be read: {reason}; relative paths start at the material's folder", path.display())]
+    Read {
+        /// The material's name.
+        material: String,
+        /// The node's label or id.
+        node: String,
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// The file is no image that can be decoded.
+    #[error("node `{node}` of the material `{material}`: {file}: {source}")]
+    Decode {
+        /// The material's name.
+        material: String,
+        /// The node's label or id.
+        node: String,
+        /// The file, with `#N` for an image within a glTF file.
+        file: String,
+        /// Why.
+        source: halfvector_maps::DecodeError,
+    },
+    /// The glTF file that holds the image was refused.
+    #[error("node `{node}` of the material `{material}`: {source}")]
+    Gltf {
+        /// The material's name.
+        material: String,
+        /// The node's label or id.
+        node: String,
+        /// Why.
+        source: GltfError,
+    },
+}
+
+/// Who wants an image first, for messages.
+struct Wanted {
+    key: ImageKey,
+    material: String,
+    node: String,
+}
+
+impl ImageStore {
+    /// Loads what the materials refer to and is not here yet. Nodes that no surface reads from are passed over. When
+    /// several images fail the first in order of materials and node ids is reported.
+    pub fn load(&mut self, materials: &[SceneMaterial]) -> Result<(), ImageError> {
+        let mut seen: BTreeSet<ImageKey> = BTreeSet::new();
+        let mut wanted = Vec::new();
+        for material in materials {
+            for (node, label, image) in images_of(&material.document) {
+                let key = ImageKey::new(&material.directory, image);
+                if !self.by_key.contains_key(&key) && seen.insert(key.clone()) {
+                    let node = label.unwrap_or(node).to_owned();
+                    wanted.push(Wanted { key, material: material.document.name.clone(), node });
+                }
+            }
+        }
+        let mut assets: BTreeMap<&Path, Asset> = BTreeMap::new();
+        for want in wanted.iter().filter(|want| want.key.in_gltf.is_some()) {
+            let path = want.key.path.as_path();
+            if !assets.contains_key(path) {
+                assets.insert(path, Asset::open(path).map_err(|source| want.gltf_error(source))?);
+            }
+        }
+        let decoded: Result<Vec<Image>, ImageError> = wanted.par_iter().map(|want| decode(want, &assets)).collect();
+        for (want, image) in wanted.iter().zip(decoded?) {
+            self.by_key.insert(want.key.clone(), self.images.len());
+            self.images.push(image);
+        }
+        Ok(())
+    }
+
+    /// The index of the picture that a document in `directory` means; the same for every way to read it.
+    pub fn index(&self, directory: &Path, image: &ImageRef) -> Option<usize> {
+        self.by_key.get(&ImageKey::new(directory, image)).copied()
+    }
+
+    /// The picture that a document in `directory` means.
+    pub fn get(&self, directory: &Path, image: &ImageRef) -> Option<&Image> {
+        self.index(directory, image).map(|index| &self.images[index])
+    }
+
+    /// All pictures, in the order of their indices.
+    pub fn images(&self) -> &[Image] {
+        &self.images
+    }
+}
+
+impl Wanted {
+    fn gltf_error(&self, source: GltfError) -> ImageError {
+        ImageError::Gltf { material: self.material.clone(), node: self.node.clone(), source }
+    }
+}
+
+fn decode(want: &Wanted, assets: &BTreeMap<&Path, Asset>) -> Result<Image, ImageError> {
+    let path = &want.key.path;
+    let decoded = |bytes: &[u8], file: String| {
+        halfvector_maps::decode(bytes, Limits::default()).map_err(|source| ImageError::Decode {
+            material: want.material.clone(),
+            node: want.node.clone(),
+            file,
+            source,
+        })
+    };
+    match (want.key.in_gltf, assets.get(path.as_path())) {
+        (Some(number), Some(asset)) => {
+            let bytes = asset.image_bytes(number).map_err(|source| want.gltf_error(source))?;
+            decoded(&bytes, format!("{}#{number}", path.display()))
+        }
+        _ => {
+            let bytes = read_limited(path, MAX_FILE_BYTES).map_err(|reason| ImageError::Read {
+                material: want.material.clone(),
+                node: want.node.clone(),
+                path: path.clone(),
+                reason,
+            })?;
+            decoded(&bytes, path.display().to_string())
+        }
+    }
+}
+
+impl ImageKey {
+    fn new(directory: &Path, image: &ImageRef) -> ImageKey {
+        let (file, in_gltf) = match image.file.rsplit_once('#') {
+            Some((file, number)) if gltf::has_gltf_extension(file) => match number.parse() {
+                Ok(number) => (file, Some(number)),
+                Err(_) => (image.file.as_str(), None),
+            },
+            _ => (image.file.as_str(), None),
+        };
+        ImageKey { path: without_detours(&directory.join(file)), in_gltf }
+    }
+}
+
+/// The path without `.` and without `folder/..`, unless `folder` is a link, which leads elsewhere.
+fn without_detours(path: &Path) -> PathBuf {
+    let mut result = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir
+                if matches!(result.components().next_back(), Some(Component::Normal(_))) && !is_link(&result) =>
+            {
+                result.pop();
+            }
+            other => result.push(other),
+        }
+    }
+    result
+}
+
+fn is_link(path: &Path) -> bool {
+    path.symlink_metadata().is_ok_and(|data| data.is_symlink())
+}
+
+/// (node id, label, image) of every image value on a node that a surface reads from, in order of ids and sockets.
+fn images_of(document: &Document) -> Vec<(&str, Option<&str>, &ImageRef)> {
+    let mut feeds: HashMap<&str, Vec<&str>> = HashMap::new();
+    for link in &document.links {
+        feeds.entry(&link.to.node).or_default().push(&link.from.node);
+    }
+    let mut open: Vec<&str> =
+        document.nodes.iter().filter(|(_, n)| n.node.starts_with("surface/")).map(|(id, _)| id.as_str()).collect();
+    let mut live: BTreeSet<&str> = open.iter().copied().collect();
+    while let Some(node) = open.pop() {
+        for &source in feeds.get(node).into_iter().flatten() {
+            if live.insert(source) {
+                open.push(source);
+            }
+        }
+    }
+    let nodes = live.into_iter().filter_map(|id| document.nodes.get(id).map(|node| (id, node)));
+    nodes
+        .flat_map(|(id, node)| {
+            node.values.values().filter_map(move |value| match value {
+                Value::Image(image) => Some((id, node.label.as_deref(), image)),
+                _ => None,
+            })
+        })
+        .collect()
+}
