@@ -1,1 +1,21 @@
-//! Draws a scene with wgpu: device, pipelines, targets, readback.
+//! Draws a scene with wgpu: device, textures, pipelines by reflection, tiles, read-back.
+//!
+//! It knows no node and no file: shaders come from the code generator with a list of what they read, scenes come loaded,
+//! environments baked. It opens no window.
+
+mod background;
+mod device;
+mod draws;
+mod error;
+mod mesh;
+mod picture;
+mod program;
+mod renderer;
+mod target;
+mod texture;
+mod uniforms;
+mod view;
+
+pub use error::RenderError;
+pub use picture::Picture;
+pub use renderer::{RenderOptions, Renderer};

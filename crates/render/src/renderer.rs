@@ -1,0 +1,150 @@
+//! A scene becomes a picture: the whole way on one page.
+
+use halfvector_codegen::Fold;
+use halfvector_graph::needs::ShaderOutput;
+use halfvector_graph::document::AlphaMode;
+use halfvector_ibl::BakedEnvironment;
+use halfvector_codegen::reflection::SamplerSource;
+use halfvector_scene::light::lights_by_kind;
+use halfvector_scene::{Background, Scene};
+
+use crate::background::Sky;
+use crate::device::Gpu;
+use crate::draws::{EnvironmentTextures, prepare};
+use crate::error::RenderError;
+use crate::picture::{Picture, tiles};
+use crate::target::{TILE_EDGE, Target};
+use crate::texture;
+use crate::uniforms::Frame;
+use crate::view::View;
+
+/// Draws scenes on one GPU.
+#[derive(Debug)]
+pub struct Renderer {
+    gpu: Gpu,
+}
+
+/// How a picture is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RenderOptions {
+    /// Pixels in a row, at least 1.
+    pub width: u32,
+    /// Rows, at least 1.
+    pub height: u32,
+    /// Samples along each side of a pixel, on a regular grid: 4 is 16 samples per pixel.
+    pub samples_per_side: u32,
+    /// How the numbers of the materials reach the shader.
+    pub fold: Fold,
+    /// Samples on a side of the tiles that the picture is drawn in; less memory, more passes. The picture is the same.
+    pub tile_edge: u32,
+}
+
+impl Default for RenderOptions {
+    fn default() -> Self {
+        RenderOptions { width: 512, height: 512, samples_per_side: 4, fold: Fold::Live, tile_edge: TILE_EDGE }
+    }
+}
+
+impl Renderer {
+    /// Opens the best GPU there is; a software GPU is taken when there is no other.
+    ///
+    /// # Errors
+    /// When there is none, or it does not open.
+    pub fn new() -> Result<Renderer, RenderError> {
+        Ok(Renderer { gpu: Gpu::open()? })
+    }
+
+    /// The GPU's name with its interface, for people.
+    pub fn adapter(&self) -> &str {
+        &self.gpu.name
+    }
+
+    /// Whether the GPU is a program on the CPU.
+    pub fn is_software(&self) -> bool {
+        self.gpu.software
+    }
+
+    /// Draws a scene to linear radiance with premultiplied alpha. `environment` is the scene's environment, baked; it may be
+    /// absent when the scene has none. `progress` is told the share that is done, 0 to 1.
+    ///
+    /// # Errors
+    /// When a material is wrong, something does not fit the device, or the device gives up.
+    pub fn render(
+        &self,
+        scene: &Scene,
+        environment: Option<&BakedEnvironment>,
+        options: &RenderOptions,
+        mut progress: impl FnMut(f32),
+    ) -> Result<Picture, RenderError> {
+        let gpu = &self.gpu;
+        let RenderOptions { width, height, samples_per_side: side, .. } = *options;
+        let wrong_size = || RenderError::PictureSize { width, height, side };
+        if width == 0 || height == 0 || side == 0 || u64::from(width) * u64::from(height) > 1 << 28 {
+            return Err(wrong_size());
+        }
+        let edge = options.tile_edge.min(TILE_EDGE).min(gpu.device.limits().max_texture_dimension_2d) / side;
+        let tiles = if edge == 0 { return Err(wrong_size()) } else { tiles(width, height, edge) };
+
+        let needs = halfvector_scene::needs(scene, ShaderOutput::Radiance);
+        let near = scene.camera.near(scene.bounds());
+        let view = View::new(&scene.camera, near, width as f32 / height as f32);
+        let (sin, cos) = scene.environment_rotation.to_radians().sin_cos();
+        let lights = lights_by_kind(&scene.lights);
+        let frame = Frame {
+            clip_from_world: glam::Mat4::IDENTITY,
+            camera_position: view.position,
+            exposure: scene.exposure.factor(),
+            environment_rotation: [cos, sin],
+            environment_levels: environment.map_or(0, |baked| baked.radiance.len() as u32),
+            irradiance_sh: environment.map_or([[0.0; 3]; 9], |baked| baked.irradiance_sh),
+            lights: &lights,
+        };
+        let blends = scene.materials.iter().any(|material| material.document.surface.alpha_mode == AlphaMode::Blend);
+        let format = gpu.radiance_format(blends)?;
+
+        let mut textures = EnvironmentTextures::new(environment);
+        let (draws, sky, target) = gpu.guarded("preparing the scene", || {
+            let draws = prepare(gpu, scene, &needs, options.fold, &view, format, &mut textures)?;
+            let sky = match scene.background {
+                Background::Environment if environment.is_some() => {
+                    let sampler = texture::sampler(gpu, &SamplerSource::LinearClamp);
+                    let gamma_coded = needs.methods.is("encode", "report");
+                    let radiance = textures.radiance(gpu)?;
+                    Some(Sky::new(gpu, format, &radiance, &sampler, frame.environment_rotation, gamma_coded))
+                }
+                _ => None,
+            };
+            let target = Target::new(gpu, format, edge.min(width) * side, edge.min(height) * side);
+            Ok((draws, sky, target))
+        })?;
+        let clear = match scene.background {
+            Background::Color(color) => [color[0], color[1], color[2], 1.0],
+            Background::Environment | Background::None => [0.0; 4],
+        };
+
+        let mut picture = Picture::clear(width, height);
+        for (number, &tile) in tiles.iter().enumerate() {
+            let samples = gpu.guarded("drawing", || {
+                let frame = Frame { clip_from_world: view.clip_from_world(width, height, tile), ..frame };
+                draws.set_frame(gpu, &frame)?;
+                if let Some(sky) = &sky {
+                    sky.set_tile(gpu, &view, width, height, tile);
+                }
+                let (columns, rows) = (tile.width * side, tile.height * side);
+                let mut encoder = gpu.device.create_command_encoder(&Default::default());
+                let mut pass = target.pass(&mut encoder, clear);
+                pass.set_viewport(0.0, 0.0, columns as f32, rows as f32, 0.0, 1.0);
+                draws.draw_solid(&mut pass);
+                if let Some(sky) = &sky {
+                    sky.draw(&mut pass);
+                }
+                draws.draw_blended(&mut pass);
+                drop(pass);
+                target.read(gpu, encoder, columns, rows)
+            })?;
+            picture.resolve(tile, side, &samples);
+            progress((number + 1) as f32 / tiles.len() as f32);
+        }
+        Ok(picture)
+    }
+}

@@ -1,0 +1,210 @@
+//! Pictures, cubes and tables on the GPU: formats, mip levels and samplers. It computes no texel but what a format asks for.
+
+use std::borrow::Cow;
+
+use half::f16;
+use halfvector_codegen::reflection::SamplerSource;
+use halfvector_graph::value::{ColorSpace, Filter, Wrap};
+use halfvector_ibl::{Cube, DfgTable};
+use halfvector_maps::{Image, MapKind, Texels};
+
+use crate::device::Gpu;
+use crate::error::RenderError;
+
+/// The largest finite half float: what is brighter becomes this bright.
+const F16_MAX: f32 = 65504.0;
+
+/// A picture with all its mip levels. `name` stands in the error when it is too large.
+pub(crate) fn image(
+    gpu: &Gpu,
+    name: &str,
+    image: &Image,
+    color_space: ColorSpace,
+) -> Result<wgpu::TextureView, RenderError> {
+    let (width, height) = (image.width(), image.height());
+    let limit = gpu.device.limits().max_texture_dimension_2d;
+    if width > limit || height > limit {
+        return Err(RenderError::ImageTooLarge {
+            file: name.to_owned(),
+            width,
+            height,
+            limit,
+            adapter: gpu.name.clone(),
+        });
+    }
+    let coded_in_hardware = matches!(image.texels(), Texels::U8(_));
+    let (base, space) = if coded_in_hardware || color_space == ColorSpace::Linear {
+        (Cow::Borrowed(image), color_space)
+    } else {
+        (Cow::Owned(decoded(image)), ColorSpace::Linear)
+    };
+    // Colours are weighted by their coverage; whether other data are normals is not known here, and the mean of vectors
+    // that the shader makes unit serves them too.
+    let kind = if color_space == ColorSpace::Srgb { MapKind::Color } else { MapKind::Data };
+    let levels = halfvector_maps::mip_chain(&base, maps_color_space(space), kind);
+    let format = match (image.texels(), space) {
+        (Texels::U8(_), ColorSpace::Srgb) => wgpu::TextureFormat::Rgba8UnormSrgb,
+        (Texels::U8(_), ColorSpace::Linear) => wgpu::TextureFormat::Rgba8Unorm,
+        _ if gpu.filters_f32() => wgpu::TextureFormat::Rgba32Float,
+        _ => wgpu::TextureFormat::Rgba16Float,
+    };
+    let texture = new_texture(gpu, format, [width, height, 1], levels.len() as u32);
+    for (level, image) in levels.iter().enumerate() {
+        let bytes = texel_bytes(image, format);
+        write(gpu, &texture, level as u32, [image.width(), image.height(), 1], &bytes);
+    }
+    Ok(texture.create_view(&Default::default()))
+}
+
+/// A cube with one level for each cube of `levels`; each has half the size of the one before. 16-bit floats.
+pub(crate) fn cube(gpu: &Gpu, levels: &[Cube]) -> wgpu::TextureView {
+    let size = levels.first().map_or(1, |cube| cube.size as u32);
+    let texture = new_texture(gpu, wgpu::TextureFormat::Rgba16Float, [size, size, 6], levels.len().max(1) as u32);
+    for (level, cube) in levels.iter().enumerate() {
+        let bytes = f16_bytes(cube.texels.iter().map(|&[r, g, b]| [r, g, b, 1.0]));
+        write(gpu, &texture, level as u32, [cube.size as u32, cube.size as u32, 6], &bytes);
+    }
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::Cube),
+        ..Default::default()
+    })
+}
+
+/// The (scale, bias) table: x = n.v, y = perceptual roughness. 32-bit floats where they can be filtered, else 16-bit ones.
+pub(crate) fn dfg(gpu: &Gpu, table: &DfgTable) -> wgpu::TextureView {
+    let size = table.size as u32;
+    let (format, bytes) = if gpu.filters_f32() {
+        (wgpu::TextureFormat::Rg32Float, bytemuck::cast_slice(&table.texels).to_vec())
+    } else {
+        let halves = table.texels.iter().flat_map(|texel| texel.map(to_f16));
+        (wgpu::TextureFormat::Rg16Float, halves.flat_map(f16::to_le_bytes).collect())
+    };
+    let texture = new_texture(gpu, format, [size, size, 1], 1);
+    write(gpu, &texture, 0, [size, size, 1], &bytes);
+    texture.create_view(&Default::default())
+}
+
+/// A sampler.
+pub(crate) fn sampler(gpu: &Gpu, source: &SamplerSource) -> wgpu::Sampler {
+    let (wrap_u, wrap_v, filter) = match source {
+        SamplerSource::Image { wrap_u, wrap_v, filter } => (*wrap_u, *wrap_v, *filter),
+        SamplerSource::LinearClamp => (Wrap::Clamp, Wrap::Clamp, Filter::Linear),
+    };
+    let (texels, levels) = match filter {
+        Filter::Linear => (wgpu::FilterMode::Linear, wgpu::MipmapFilterMode::Linear),
+        Filter::Nearest => (wgpu::FilterMode::Nearest, wgpu::MipmapFilterMode::Nearest),
+    };
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: None,
+        address_mode_u: address_mode(wrap_u),
+        address_mode_v: address_mode(wrap_v),
+        address_mode_w: wgpu::AddressMode::ClampToEdge,
+        mag_filter: texels,
+        min_filter: texels,
+        mipmap_filter: levels,
+        ..Default::default()
+    })
+}
+
+fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
+    match wrap {
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+        Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
+        Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+    }
+}
+
+fn maps_color_space(space: ColorSpace) -> halfvector_maps::ColorSpace {
+    match space {
+        ColorSpace::Srgb => halfvector_maps::ColorSpace::Srgb,
+        ColorSpace::Linear => halfvector_maps::ColorSpace::Linear,
+    }
+}
+
+/// The sRGB-decoded picture in floats: no hardware decodes sRGB from other than 8 bits. Alpha is linear as it is.
+fn decoded(image: &Image) -> Image {
+    let linear = |[r, g, b, a]: [f32; 4]| {
+        let [r, g, b] = halfvector_maps::color::linear_from_srgb([r, g, b]);
+        [r, g, b, a]
+    };
+    let texels = match image.texels() {
+        Texels::U8(texels) => texels.iter().map(|&texel| linear(texel.map(|c| f32::from(c) / 255.0))).collect(),
+        Texels::U16(texels) => texels.iter().map(|&texel| linear(texel.map(|c| f32::from(c) / 65535.0))).collect(),
+        Texels::F32(texels) => texels.iter().map(|&texel| linear(texel)).collect(),
+    };
+    let same = || image.clone();
+    Image::new(image.width(), image.height(), image.channels(), Texels::F32(texels)).unwrap_or_else(|_| same())
+}
+
+fn texel_bytes(image: &Image, format: wgpu::TextureFormat) -> Cow<'_, [u8]> {
+    let half = format == wgpu::TextureFormat::Rgba16Float;
+    match image.texels() {
+        Texels::U8(texels) => Cow::Borrowed(bytemuck::cast_slice(texels)),
+        Texels::U16(texels) => {
+            let floats = texels.iter().map(|texel| texel.map(|c| f32::from(c) / 65535.0));
+            Cow::Owned(if half { f16_bytes(floats) } else { f32_bytes(floats) })
+        }
+        Texels::F32(texels) if half => Cow::Owned(f16_bytes(texels.iter().copied())),
+        Texels::F32(texels) => Cow::Borrowed(bytemuck::cast_slice(texels)),
+    }
+}
+
+fn f32_bytes(texels: impl Iterator<Item = [f32; 4]>) -> Vec<u8> {
+    texels.flat_map(|texel| texel.into_iter().flat_map(f32::to_le_bytes)).collect()
+}
+
+fn f16_bytes(texels: impl Iterator<Item = [f32; 4]>) -> Vec<u8> {
+    texels.flat_map(|texel| texel.into_iter().flat_map(|c| to_f16(c).to_le_bytes())).collect()
+}
+
+/// Rounds to a half float; what is too large becomes the largest, and NaN becomes 0.
+fn to_f16(x: f32) -> f16 {
+    if x.is_nan() { f16::ZERO } else { f16::from_f32(x.clamp(-F16_MAX, F16_MAX)) }
+}
+
+fn new_texture(gpu: &Gpu, format: wgpu::TextureFormat, size: [u32; 3], levels: u32) -> wgpu::Texture {
+    let [width, height, depth_or_array_layers] = size;
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width, height, depth_or_array_layers },
+        mip_level_count: levels,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+fn write(gpu: &Gpu, texture: &wgpu::Texture, mip_level: u32, size: [u32; 3], bytes: &[u8]) {
+    let [width, height, depth_or_array_layers] = size;
+    gpu.queue.write_texture(
+        wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level,
+            origin: wgpu::Origin3d::ZERO,
+            aspect: wgpu::TextureAspect::All,
+        },
+        bytes,
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(width * texture.format().block_copy_size(None).unwrap_or(4)),
+            rows_per_image: Some(height),
+        },
+        wgpu::Extent3d { width, height, depth_or_array_layers },
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_floats_stay_finite() {
+        assert_eq!(to_f16(1e9).to_f32(), F16_MAX);
+        assert_eq!(to_f16(f32::INFINITY).to_f32(), F16_MAX);
+        assert_eq!(to_f16(f32::NEG_INFINITY).to_f32(), -F16_MAX);
+        assert_eq!(to_f16(f32::NAN).to_f32(), 0.0);
+        assert_eq!(to_f16(0.5).to_f32(), 0.5);
+    }
+}
