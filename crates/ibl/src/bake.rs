@@ -3,7 +3,7 @@
 use crate::cube::Cube;
 use crate::equirect::Equirect;
 use crate::harmonics::{MAX_BAND, Spectrum};
-use crate::kernel::{cosine_kernel, ggx_band, ggx_grid_rows, ggx_kernel};
+use crate::kernel::{MIN_ALPHA, cosine_kernel, ggx_band, ggx_grid_rows, ggx_kernel};
 use crate::load::{LoadedEnvironment, Source};
 use crate::lobe::narrow_lobe;
 use crate::resample::{cube_from_equirect, equirect_from_cube};
@@ -91,9 +91,10 @@ pub fn bake(environment: &LoadedEnvironment, options: &BakeOptions) -> BakedEnvi
     };
 
     let alphas: Vec<f64> = roughness.iter().map(|&r| alpha_from_perceptual_roughness(f64::from(r))).collect();
-    // Only lobes that the harmonics resolve count for how many are needed.
+    // As many degrees as the narrowest lobe needs that is to be computed.
     let needed = if stored.is_some() { &[] } else { &alphas[1..] };
-    let band = needed.iter().map(|&a| ggx_band(a)).filter(|&b| b <= MAX_BAND).max().unwrap_or(0).max(ggx_band(1.0));
+    let narrowest = needed.iter().copied().filter(|&alpha| alpha > 0.0).fold(1.0, f64::min);
+    let band = ggx_band(narrowest).min(MAX_BAND);
     let spectrum = Spectrum::from_equirect(&map, band);
 
     let radiance = match stored {
@@ -116,12 +117,14 @@ pub fn bake(environment: &LoadedEnvironment, options: &BakeOptions) -> BakedEnvi
 }
 
 fn prefiltered(spectrum: &Spectrum, level_0: &Cube, alpha: f64, size: usize, band: usize) -> Cube {
+    let resolved = alpha.max(MIN_ALPHA);
+    let grid = || spectrum.synthesized(&ggx_kernel(resolved, band), ggx_grid_rows(resolved));
     if alpha <= 0.0 {
         level_0.resized(size)
-    } else if ggx_band(alpha) > MAX_BAND {
-        narrow_lobe(level_0, alpha, size)
+    } else if alpha < resolved {
+        narrow_lobe(level_0, &grid(), alpha, size)
     } else {
-        let grid = spectrum.synthesized(&ggx_kernel(alpha, band), ggx_grid_rows(alpha));
+        let grid = grid();
         Cube::from_fn(size, |dir| grid.sample(dir))
     }
 }

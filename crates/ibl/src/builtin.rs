@@ -22,7 +22,7 @@ pub fn studio() -> LoadedEnvironment {
 }
 
 /// A clear sky over dull ground, with a sun of 1 degree radius, 40 degrees high, to the left of a camera on +Z and behind
-/// it. Its mean radiance is about 0.6, and the sun gives about as much light as the sky.
+/// it. Its mean radiance is about 0.5, and the sun gives about as much light as the sky.
 pub fn sky() -> LoadedEnvironment {
     Equirect::from_fn(WIDTH, WIDTH / 2, sky_radiance).into()
 }

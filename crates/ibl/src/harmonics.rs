@@ -13,4 +13,4 @@ mod quadrature;
 mod spectrum;
 
 pub(crate) use quadrature::gauss_legendre;
-pub(crate) use spectrum::{MAX_BAND, Spectrum};
+pub(crate) use spectrum::{Grid, MAX_BAND, Spectrum};

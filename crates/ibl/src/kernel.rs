@@ -1,6 +1,6 @@
 //! The lobes as zonal kernels: the numbers by which a convolution multiplies the harmonics of each degree.
 
-use crate::harmonics::gauss_legendre;
+use crate::harmonics::{MAX_BAND, gauss_legendre};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// k_l for l = 0 ..= band of the prefilter lobe with n = v = r: weight D_GGX(h) max(n.l, 0), normalised to k_0 = 1.
@@ -10,11 +10,16 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// equation 33; Karis 2013, "Real Shading in Unreal Engine 4", for n = v = r). `alpha` > 0; at 1 the lobe is the cosine.
 pub(crate) fn ggx_kernel(alpha: f64, band: usize) -> Vec<f64> {
     let a2 = alpha * alpha;
-    zonal_kernel(band, alpha, |cos, one_minus_cos| {
-        let d = one_minus_cos * (1.0 - a2) / 2.0 + a2;
-        // The scale a2^2 keeps the numbers near 1; the normalisation removes it.
-        cos * (a2 / d) * (a2 / d)
-    })
+    // The scale a2^2 keeps the numbers near 1; the normalisation removes it.
+    zonal_kernel(band, alpha, |cos, one_minus_cos| a2 * a2 * ggx_weight(alpha, cos, one_minus_cos))
+}
+
+/// The weight n.l / (s (1 - alpha^2) / 2 + alpha^2)^2 of a direction at the cosine n.l = 1 - s > 0: for any alpha it is
+/// 4 n.l / s^2 far from the middle, and smaller everywhere when alpha is greater.
+pub(crate) fn ggx_weight(alpha: f64, cos: f64, one_minus_cos: f64) -> f64 {
+    let a2 = alpha * alpha;
+    let d = one_minus_cos * (1.0 - a2) / 2.0 + a2;
+    cos / (d * d)
 }
 
 /// k_l for l = 0 ..= band of the cosine lobe, normalised to k_0 = 1: radiance to irradiance over pi.
@@ -61,6 +66,9 @@ pub(crate) fn ggx_band(alpha: f64) -> usize {
 
 /// Degrees taken for every lobe, however wide.
 const MIN_BAND: usize = 192;
+
+/// The narrowest lobe whose series ends within [`MAX_BAND`].
+pub(crate) const MIN_ALPHA: f64 = 7.0 / MAX_BAND as f64;
 
 /// Rows of a grid on which cubic interpolation follows the lobe: the lobe is about 4 alpha wide, thus 16 rows or more.
 pub(crate) fn ggx_grid_rows(alpha: f64) -> usize {

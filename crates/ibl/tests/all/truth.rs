@@ -32,8 +32,8 @@ fn mirrored([x, y, z]: [f64; 3]) -> [f64; 3] {
 }
 
 /// Each roughness of the table baked as a level of its own, read at the table's directions, which are not texel centres:
-/// levels are baked at 256 texels so that what is measured is the filter. Truth's own ambiguity (texels constant or
-/// bilinear) is up to 2 % rms at 0.05 and 0.5 % at 0.1.
+/// levels are baked at 256 texels so that what is measured is the filter. At 0.1 the lobe spans four texels, and reading
+/// between them shows; the table's 0.05 spans one, so it is left out.
 #[test]
 fn prefiltered_radiance() {
     for name in ENVIRONMENTS {
@@ -46,6 +46,9 @@ fn prefiltered_radiance() {
         let mut rows: BTreeMap<u32, Vec<&Vec<String>>> = BTreeMap::new();
         for row in &table {
             let roughness: f64 = row[4].parse().expect("a number");
+            if roughness < 0.09 {
+                continue;
+            }
             rows.entry((roughness * 1000.0).round() as u32).or_default().push(row);
         }
         for (&key, rows) in &rows {
@@ -66,9 +69,8 @@ fn prefiltered_radiance() {
             let roughness = f64::from(key) / 1000.0;
             let worst = errors.iter().copied().fold(0.0, f64::max);
             println!("{name} roughness {roughness}: rms {:.3} %, worst {:.3} %", 100.0 * rms(&errors), 100.0 * worst);
-            // Below 0.1 the lobe is narrower than the harmonics resolve, and its direct quadrature is coarse: only reported.
-            let allowed = [(0.2, 0.005), (0.1, 0.03)].iter().find(|(from, _)| roughness > from - 1e-6).map(|a| a.1);
-            assert!(rms(&errors) < allowed.unwrap_or(f64::INFINITY), "{name} at {roughness}: rms {}", rms(&errors));
+            let allowed = if roughness > 0.199 { 0.005 } else { 0.03 };
+            assert!(rms(&errors) < allowed, "{name} at {roughness}: rms {}", rms(&errors));
         }
     }
 }
