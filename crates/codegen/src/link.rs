@@ -267,8 +267,7 @@ impl Index {
             (header + 1..open).filter(|&i| text(i + 1) == ":" && text(i) != ":").map(text).collect();
         let mut pieces = vec![Piece::Text(String::new())];
         let mut before = all[open + 2].start;
-        for index in open + 2..end {
-            let token = &all[index];
+        for (index, token) in all.iter().enumerate().take(end).skip(open + 2) {
             let word = token.text(source);
             let gap = &source[before..token.start];
             before = token.end;
@@ -276,7 +275,7 @@ impl Index {
                 return None;
             }
             pieces.push(Piece::Text(gap.to_owned()));
-            let is_name = token.kind == TokenKind::Identifier && (index == 0 || text(index - 1) != ".");
+            let is_name = token.kind == TokenKind::Identifier && text(index - 1) != ".";
             pieces.push(match parameters.iter().position(|p| *p == word) {
                 Some(parameter) if is_name => Piece::Parameter(parameter),
                 _ if is_name && word == "T" && self.files[*file].generic => Piece::Generic,

@@ -177,34 +177,38 @@ impl Shading<'_, '_, '_> {
             if count == 1 {
                 let light = format!("{member}_light");
                 self.line(&format!("let {light} = {sample}(lights.{member}, {position});"));
-                let term = self.light_term(&light)?;
-                self.add(&term);
+                for term in self.light_terms(&light)? {
+                    self.add(&term);
+                }
             } else {
                 if std::mem::take(&mut self.first) {
                     self.line("var radiance = vec3f(0.0);");
                 }
                 self.line(&format!("for (var i = 0u; i < {count}u; i++) {{"));
                 self.line(&format!("    let light = {sample}(lights.{member}[i], {position});"));
-                let term = self.light_term("light")?;
-                self.line(&format!("    radiance += {term};"));
+                for term in self.light_terms("light")? {
+                    self.line(&format!("    radiance += {term};"));
+                }
                 self.line("}");
             }
         }
         Ok(())
     }
 
-    /// What one light adds.
-    fn light_term(&mut self, light: &str) -> Result<String, CodegenError> {
+    /// What one light adds by each lobe.
+    fn light_terms(&mut self, light: &str) -> Result<Vec<String>, CodegenError> {
         let plan = self.parts.plan;
-        let mut lobes = Vec::new();
+        let mut terms = Vec::new();
         if plan.diffuse {
-            lobes.push(format!("{}(frame, {light}.dir, diffuse)", self.writer.library("diffuse_eval")?));
+            let lobe = self.writer.library("diffuse_eval")?;
+            terms.push(format!("{lobe}(frame, {light}.dir, diffuse) * {light}.illuminance"));
         }
         if plan.specular {
+            let lobe = self.writer.library("specular_eval")?;
             let compensated = if plan.compensation { " * compensation" } else { "" };
-            lobes.push(format!("{}(frame, {light}.dir, specular){compensated}", self.writer.library("specular_eval")?));
+            terms.push(format!("{lobe}(frame, {light}.dir, specular){compensated} * {light}.illuminance"));
         }
-        Ok(format!("{} * {light}.illuminance", sum(&lobes)))
+        Ok(terms)
     }
 
     fn environment(&mut self) -> Result<(), CodegenError> {
@@ -222,7 +226,7 @@ impl Shading<'_, '_, '_> {
             let direction = self.turned("reflect(-frame.view_dir, frame.normal)", rotated)?;
             self.line(&format!("let reflection_dir = {direction};"));
         }
-        let mut lobes = Vec::new();
+        let occlusion = if plan.occlusion { format!(" * {}", self.root("occlusion", "1.0")) } else { String::new() };
         if plan.diffuse {
             let irradiance = match methods.get("irradiance").name {
                 "sh2" => {
@@ -244,21 +248,20 @@ impl Shading<'_, '_, '_> {
                 }
             };
             self.line(&format!("let irradiance = {irradiance};"));
-            lobes.push(format!("{}(diffuse, irradiance)", self.writer.library("diffuse_environment")?));
+            let lobe = self.writer.library("diffuse_environment")?;
+            self.add(&format!("{lobe}(diffuse, irradiance){occlusion}"));
         }
         if plan.specular {
             let levels = self.writer.view(ViewMember::EnvironmentLevels);
             let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
             let sample = self.writer.library("environment_sample")?;
-            let reflection = encoded(format!("{sample}({cube}, reflection_dir, {lod}({roughness}, {levels}))"));
+            self.line(&format!("let reflection_lod = {lod}({roughness}, {levels});"));
+            let reflection = encoded(format!("{sample}({cube}, reflection_dir, reflection_lod)"));
             self.line(&format!("let reflection = {reflection};"));
             let compensated = if plan.compensation { " * compensation" } else { "" };
             let lobe = self.writer.library("specular_environment")?;
-            lobes.push(format!("{lobe}(specular, reflection, dfg){compensated}"));
+            self.add(&format!("{lobe}(specular, reflection, dfg){compensated}{occlusion}"));
         }
-        let occlusion = if plan.occlusion { format!(" * {}", self.root("occlusion", "1.0")) } else { String::new() };
-        let term = if plan.occlusion { format!("{}{occlusion}", sum(&lobes)) } else { lobes.join(" + ") };
-        self.add(&term);
         Ok(())
     }
 
@@ -307,13 +310,5 @@ impl Shading<'_, '_, '_> {
             self.line(&format!("return vec4f({color}, 1.0);"));
         }
         Ok(())
-    }
-}
-
-/// Lobes added, in brackets when there are several.
-fn sum(lobes: &[String]) -> String {
-    match lobes {
-        [one] => one.clone(),
-        several => format!("({})", several.join(" + ")),
     }
 }

@@ -17,9 +17,9 @@ use crate::{Dropped, Fold};
 pub(crate) const COMPENSATION_MIN_F0: f32 = 0.08;
 
 /// The most that leaving the compensation out changes the light that a surface reflects, as a part of the light that
-/// falls on it from a uniform environment: the greatest f0 (f0 a + b) (1 - E)/E with E = a + b at f0 = 0.08. A test
-/// computes it by quadrature.
-pub(crate) const COMPENSATION_BOUND: f32 = 0.007;
+/// falls on it from a uniform environment, in percent: the greatest f0 (f0 a + b) (1 - E)/E with E = a + b at f0 = 0.08.
+/// A test computes it by quadrature.
+pub(crate) const COMPENSATION_BOUND_PERCENT: f32 = 0.7;
 
 /// What the fragment shader shades with.
 #[derive(Clone, Debug, Default)]
@@ -211,9 +211,8 @@ fn compensates(plan: &mut Plan, needs: &Needs, constants: Constants) -> bool {
             plan.drop_it(
                 "energy compensation",
                 format!(
-                    "f0 is {f0} and fixed: it would change the reflected light by less than {} % of the light that \
-                     falls on the surface; no table over (n.v, roughness) is read for it",
-                    100.0 * COMPENSATION_BOUND
+                    "f0 is {f0:.3} and fixed: it would change radiance by less than {COMPENSATION_BOUND_PERCENT} % of that of a \
+                     uniform environment; no table over (n.v, roughness) is read for it"
                 ),
             );
             false
