@@ -172,12 +172,11 @@ fn irradiance_coefficients(spectrum: &Spectrum) -> [[f32; 3]; 9] {
     let [n00, n10, n11] = [1.0, 3.0, 1.5].map(|x: f64| (x / (4.0 * PI)).sqrt());
     let [n20, n21, n22] = [1.25, 7.5, 1.875].map(|x: f64| (x / (4.0 * PI)).sqrt());
     let [a1, a2] = [2.0 / 3.0, 0.25];
-    let mut coefficients = [[0.0; 3]; 9];
-    for channel in 0..3 {
+    let of_channel = |channel: usize| {
         let c = |l: usize, m: usize| spectrum.coefficient(l, m)[channel];
         let about_y = a2 * n20 * c(2, 0)[0];
         let x2_z2 = 2.0 * a2 * n22 * c(2, 2)[0];
-        let values = [
+        [
             n00 * c(0, 0)[0],
             a1 * n10 * c(1, 0)[0],
             -2.0 * a1 * n11 * c(1, 1)[1],
@@ -188,12 +187,10 @@ fn irradiance_coefficients(spectrum: &Spectrum) -> [[f32; 3]; 9] {
             // sin^2 sin(2 phi) = 2 x z.
             -4.0 * a2 * n22 * c(2, 2)[1],
             -1.5 * about_y + 0.5 * x2_z2,
-        ];
-        for (k, value) in values.into_iter().enumerate() {
-            coefficients[k][channel] = value as f32;
-        }
-    }
-    coefficients
+        ]
+    };
+    let [r, g, b] = [0, 1, 2].map(of_channel);
+    std::array::from_fn(|k| [r[k] as f32, g[k] as f32, b[k] as f32])
 }
 
 impl BakedEnvironment {
