@@ -48,7 +48,7 @@ impl Camera {
         let depths = bounds.corners().map(|corner| (corner - self.position).dot(forward));
         let nearest = depths.into_iter().fold(f32::INFINITY, f32::min);
         let farthest = depths.into_iter().fold(0.0, f32::max);
-        (0.5 * nearest).max(1e-4 * farthest).max(1e-9)
+        (0.5 * nearest).max(1e-4 * farthest).max(1e-18)
     }
 
     /// What makes the camera useless, in the user's words.

@@ -95,7 +95,11 @@ struct ObjectEntry {
 }
 
 #[derive(Deserialize)]
-#[serde(untagged, deny_unknown_fields, expecting = "a material is a path, or {\"file\": path, \"set\": {parameter: number or list}}")]
+#[serde(
+    untagged,
+    deny_unknown_fields,
+    expecting = "a material is a path, or {\"file\": path, \"set\": {parameter: number or list}}"
+)]
 enum MaterialEntry {
     Path(String),
     WithParameters {
@@ -249,8 +253,8 @@ fn here(place: impl Into<String>, reason: impl Into<String>) -> Wrong {
 
 /// Reads a scene file, and everything that it refers to but its environment.
 pub fn load_scene(path: &Path) -> Result<Scene, SceneError> {
-    let bytes = read_limited(path, MAX_FILE_BYTES)
-        .map_err(|reason| SceneError::Read { path: path.to_owned(), reason })?;
+    let bytes =
+        read_limited(path, MAX_FILE_BYTES).map_err(|reason| SceneError::Read { path: path.to_owned(), reason })?;
     from_json(&bytes, path.parent().unwrap_or(Path::new(""))).map_err(|wrong| match wrong {
         Wrong::Here { place, reason } => SceneError::InFile { path: path.to_owned(), place, reason },
         Wrong::Elsewhere(error) => error,
@@ -307,8 +311,7 @@ fn build(file: SceneFile, directory: &Path) -> Result<Scene, Wrong> {
         Some(EnvironmentEntry::Source(source)) => scene.environment = EnvironmentSource::parse(&source, directory),
         Some(EnvironmentEntry::Turned { source, rotation_deg }) => {
             scene.environment = EnvironmentSource::parse(&source, directory);
-            scene.environment_rotation =
-                finite(rotation_deg).map_err(|r| here("environment.rotation_deg", r))?;
+            scene.environment_rotation = finite(rotation_deg).map_err(|r| here("environment.rotation_deg", r))?;
         }
         None => {}
     }

@@ -69,8 +69,7 @@ pub fn point_light_sample<R: Real>(light: PointLight<R>, position: [R; 3]) -> Li
 /// Khronos 2017, "KHR_lights_punctual", inner and outer cone angles: E = I / d^2 * a^2,
 /// a = saturate((cos - cos_outer) / (cos_inner - cos_outer)), as one multiplication and one addition.
 pub fn spot_light_sample<R: Real>(light: SpotLight<R>, position: [R; 3]) -> LightSample<R> {
-    let all_around =
-        point_light_sample(PointLight { position: light.position, intensity: light.intensity }, position);
+    let all_around = point_light_sample(PointLight { position: light.position, intensity: light.intensity }, position);
     let cos_to_axis = -dot(light.direction, all_around.dir);
     let cone = clamp(cos_to_axis * light.cos_scale_offset[0] + light.cos_scale_offset[1], real(0.0), real(1.0));
     LightSample { dir: all_around.dir, illuminance: all_around.illuminance.map(|e| e * (cone * cone)) }
@@ -227,7 +226,9 @@ pub(crate) fn cone(inner: f32, outer: f32) -> Result<[f32; 2], String> {
     if 0.0 <= inner && inner <= outer && outer <= 90.0 && outer > 0.0 {
         Ok([inner.to_radians(), outer.to_radians()])
     } else {
-        Err(format!("the cone is {inner} to {outer} degrees from the axis; 0 <= inner <= outer <= 90 and outer > 0 is needed"))
+        Err(format!(
+            "the cone is {inner} to {outer} degrees from the axis; 0 <= inner <= outer <= 90 and outer > 0 is needed"
+        ))
     }
 }
 

@@ -172,20 +172,16 @@ impl Bounds {
     /// The smallest box around this box under a transform.
     pub fn transformed(&self, world_from_object: &Mat4) -> Bounds {
         let corners = self.corners().map(|p| world_from_object.transform_point3(p));
-        corners[1..].iter().fold(Bounds { min: corners[0], max: corners[0] }, |sum, &p| {
-            sum.union(Bounds { min: p, max: p })
-        })
+        corners[1..]
+            .iter()
+            .fold(Bounds { min: corners[0], max: corners[0] }, |sum, &p| sum.union(Bounds { min: p, max: p }))
     }
 
     /// The eight corners.
     pub fn corners(&self) -> [Vec3; 8] {
         std::array::from_fn(|i| {
             let pick = |bit: usize, low: f32, high: f32| if i & bit == 0 { low } else { high };
-            Vec3::new(
-                pick(1, self.min.x, self.max.x),
-                pick(2, self.min.y, self.max.y),
-                pick(4, self.min.z, self.max.z),
-            )
+            Vec3::new(pick(1, self.min.x, self.max.x), pick(2, self.min.y, self.max.y), pick(4, self.min.z, self.max.z))
         })
     }
 

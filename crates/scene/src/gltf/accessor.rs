@@ -1,8 +1,8 @@
 //! Accessors: numbers out of buffers, any component type, strided, normalised, sparse.
 
+use gltf::json::Index;
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::validation::Checked;
-use gltf::json::Index;
 
 use super::asset::{Asset, slice};
 use super::{Fault, Result, entry};
@@ -12,7 +12,11 @@ use crate::mesh::MAX_ELEMENTS;
 const MAX_ZEROS: u64 = 1 << 22;
 
 /// Vectors of N numbers; whole numbers become 0..1 or -1..1 when the accessor is normalised, else they stay.
-pub(super) fn read_vectors<const N: usize>(asset: &Asset, index: Index<Accessor>, place: &str) -> Result<Vec<[f32; N]>> {
+pub(super) fn read_vectors<const N: usize>(
+    asset: &Asset,
+    index: Index<Accessor>,
+    place: &str,
+) -> Result<Vec<[f32; N]>> {
     let (accessor, place) = accessor(asset, index, place)?;
     let component = component_type(accessor, &place)?;
     if component == ComponentType::U32 {
@@ -88,7 +92,10 @@ fn read_elements<T: Copy>(
             let stride = entry(&asset.root.buffer_views, "bufferViews", view.value(), place)?.byte_stride;
             let stride = stride.map_or(size, |s| s.0);
             if stride < size {
-                return Err(Fault::new(place, format!("the byteStride {stride} is less than an element's {size} bytes")));
+                return Err(Fault::new(
+                    place,
+                    format!("the byteStride {stride} is less than an element's {size} bytes"),
+                ));
             }
             let start = accessor.byte_offset.unwrap_or_default().0;
             strided(asset.view(view, place)?, start, count, size, stride, place)?.map(&read).collect()

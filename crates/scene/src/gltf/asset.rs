@@ -34,8 +34,8 @@ pub struct Asset {
 impl Asset {
     /// Reads a `.glb` or `.gltf` file and the buffers that it refers to.
     pub fn open(path: &Path) -> std::result::Result<Asset, GltfError> {
-        let bytes = read_limited(path, MAX_FILE_BYTES)
-            .map_err(|reason| GltfError::Read { path: path.to_owned(), reason })?;
+        let bytes =
+            read_limited(path, MAX_FILE_BYTES).map_err(|reason| GltfError::Read { path: path.to_owned(), reason })?;
         Asset::from_bytes(path, &bytes)
     }
 
@@ -85,7 +85,10 @@ impl Asset {
             let length = view.byte_length.0;
             Fault::new(
                 view_place,
-                format!("{length} bytes from byte {start} leave the buffer of {} bytes; the file is cut off or wrong", buffer.len()),
+                format!(
+                    "{length} bytes from byte {start} leave the buffer of {} bytes; the file is cut off or wrong",
+                    buffer.len()
+                ),
             )
         })
     }
@@ -173,7 +176,10 @@ fn read_buffers(path: &Path, root: &Root, binary: Option<&[u8]>, notes: &mut Vec
         let place = format!("buffers[{index}]");
         total = total.saturating_add(buffer.byte_length.0);
         if total > MAX_FILE_BYTES {
-            return Err(Fault::new(place, format!("the buffers are larger than {} MiB together", MAX_FILE_BYTES >> 20)));
+            return Err(Fault::new(
+                place,
+                format!("the buffers are larger than {} MiB together", MAX_FILE_BYTES >> 20),
+            ));
         }
         let mut bytes = match (&buffer.uri, binary) {
             (Some(uri), _) => match uri::parse(uri).map_err(|reason| Fault::new(&place, reason))? {

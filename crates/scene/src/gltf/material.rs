@@ -59,8 +59,7 @@ pub(super) fn document(asset: &Asset, index: usize, notes: &mut Vec<String>) -> 
     let material = &asset.root.materials[index];
     let place = format!("materials[{index}]");
     let name = material.name.clone().unwrap_or_else(|| format!("Material {index}"));
-    let mut builder =
-        Builder { asset, place, document: surface_document(&name, []), images: BTreeMap::new(), notes };
+    let mut builder = Builder { asset, place, document: surface_document(&name, []), images: BTreeMap::new(), notes };
     builder.fill(material)?;
     Ok(builder.document)
 }
@@ -87,7 +86,8 @@ impl Builder<'_> {
             self.number(b, "baseColorFactor")?,
         ];
         let alpha = self.number(alpha, "baseColorFactor")?;
-        let map = self.image(pbr.base_color_texture.as_ref().map(|info| info_use(info, ColorSpace::Srgb, "base_color_map")))?;
+        let map =
+            self.image(pbr.base_color_texture.as_ref().map(|info| info_use(info, ColorSpace::Srgb, "base_color_map")))?;
         self.scaled("base_color", map.as_deref().map(|m| (m, "color")), Value::Vec3(color), "base_color_factor");
         if mode != AlphaMode::Opaque {
             self.scaled("opacity", map.as_deref().map(|m| (m, "alpha")), Value::Number(alpha), "opacity_factor");
@@ -229,7 +229,13 @@ impl Builder<'_> {
             self.notes.push(format!("material `{name}`: texture coordinates {uv_set} are not read; 0 are used"));
             uv_set = 0;
         }
-        let mut numbers = [transform.offset.0[0], transform.offset.0[1], transform.rotation.0, transform.scale.0[0], transform.scale.0[1]];
+        let mut numbers = [
+            transform.offset.0[0],
+            transform.offset.0[1],
+            transform.rotation.0,
+            transform.scale.0[0],
+            transform.scale.0[1],
+        ];
         for number in &mut numbers {
             *number = self.number(*number, "KHR_texture_transform")?;
         }

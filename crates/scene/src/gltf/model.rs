@@ -124,11 +124,19 @@ impl Model {
                 let slot = match known.get(&(mesh_index, number)) {
                     Some(&slot) => slot,
                     None => {
-                        for accessor in primitive.attributes.get(&Checked::Valid(Semantic::Positions)).into_iter().chain(&primitive.indices) {
+                        for accessor in primitive
+                            .attributes
+                            .get(&Checked::Valid(Semantic::Positions))
+                            .into_iter()
+                            .chain(&primitive.indices)
+                        {
                             vertices = vertices.saturating_add(count(asset, *accessor, &place)?);
                         }
                         if vertices > MAX_ELEMENTS {
-                            return Err(Fault::new(place, format!("the model has more than {MAX_ELEMENTS} vertices and indices")));
+                            return Err(Fault::new(
+                                place,
+                                format!("the model has more than {MAX_ELEMENTS} vertices and indices"),
+                            ));
                         }
                         known.insert((mesh_index, number), drawn.len());
                         drawn.push(Drawn { primitive, place });
@@ -136,7 +144,10 @@ impl Model {
                     }
                 };
                 if self.objects.len() >= MAX_OBJECTS {
-                    return Err(Fault::new(format!("nodes[{index}]"), format!("there are more than {MAX_OBJECTS} objects")));
+                    return Err(Fault::new(
+                        format!("nodes[{index}]"),
+                        format!("there are more than {MAX_OBJECTS} objects"),
+                    ));
                 }
                 let name = node.name.clone().or_else(|| mesh.name.clone()).unwrap_or_else(|| format!("node {index}"));
                 self.objects.push(Object { name, mesh: slot, material, world_from_object });
@@ -159,7 +170,8 @@ impl Model {
         let place = format!("lights[{index}]");
         self.lights.push(read_light(light, world_from_node).map_err(|reason| Fault::new(&place, reason))?);
         if light.range.is_some() {
-            self.notes.push(format!("{place}: the range is passed over; light falls off by the square of the distance"));
+            self.notes
+                .push(format!("{place}: the range is passed over; light falls off by the square of the distance"));
         }
         Ok(())
     }

@@ -103,7 +103,9 @@ mod tests {
     #[test]
     fn data_is_decoded() {
         // RFC 4648, section 10.
-        for (text, bytes) in [("", ""), ("Zg==", "f"), ("Zm8=", "fo"), ("Zm9v", "foo"), ("Zm9vYg", "foob"), ("Zm9vYmFy", "foobar")] {
+        for (text, bytes) in
+            [("", ""), ("Zg==", "f"), ("Zm8=", "fo"), ("Zm9v", "foo"), ("Zm9vYg", "foob"), ("Zm9vYmFy", "foobar")]
+        {
             let uri = parse(&format!("data:application/octet-stream;base64,{text}"));
             assert_eq!(uri, Ok(Uri::Data(bytes.into())), "{text}");
         }
@@ -120,7 +122,9 @@ mod tests {
         assert_eq!(parse("../b.bin"), relative("../b.bin", true));
         assert_eq!(parse("a/../../b.bin"), relative("a/../../b.bin", true));
         assert_eq!(parse("a:b").unwrap_err().contains("`a:`"), true);
-        for wrong in ["/etc/passwd", "%2Fetc/passwd", "C:\\x.bin", "https://example.com/x", "file:///x", "", "a%2", "%00"] {
+        for wrong in
+            ["/etc/passwd", "%2Fetc/passwd", "C:\\x.bin", "https://example.com/x", "file:///x", "", "a%2", "%00"]
+        {
             assert!(parse(wrong).is_err(), "{wrong}");
         }
         assert_eq!(parse("..\\b.bin"), relative("../b.bin", true));

@@ -141,10 +141,7 @@ fn torus(segments: usize, tube_segments: usize) -> MeshData {
         let (tube_sin, tube_cos) = turn(row, tube_segments).sin_cos();
         let out = [ring_sin, ring_cos];
         let radius = MAJOR - MINOR * tube_sin;
-        (
-            [radius * out[0], radius * out[1], MINOR * tube_cos],
-            [-tube_sin * out[0], -tube_sin * out[1], tube_cos],
-        )
+        ([radius * out[0], radius * out[1], MINOR * tube_cos], [-tube_sin * out[0], -tube_sin * out[1], tube_cos])
     });
     data
 }

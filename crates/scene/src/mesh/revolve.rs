@@ -89,8 +89,7 @@ pub(super) fn smooth_profile(points: &[[f64; 2]]) -> Vec<ProfilePoint> {
             let after = if i < last { segment_normal(i).0 } else { segment_normal(last - 1).0 };
             let sum = [before[0] + after[0], before[1] + after[1]];
             let length = sum[0].hypot(sum[1]);
-            let normal =
-                if radius == 0.0 { [0.0, sum[1].signum()] } else { [sum[0] / length, sum[1] / length] };
+            let normal = if radius == 0.0 { [0.0, sum[1].signum()] } else { [sum[0] / length, sum[1] / length] };
             let v = walked / total;
             if i < last {
                 walked += segment_normal(i).1;

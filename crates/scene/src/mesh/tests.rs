@@ -37,7 +37,12 @@ fn normals_and_tangents_are_a_frame() {
             let (normal, tangent) = (Vec3::from(*normal), Vec4Parts::from(*tangent));
             assert!((normal.length() - 1.0).abs() < 1e-5);
             assert!((tangent.direction.length() - 1.0).abs() < 1e-4);
-            assert!(normal.dot(tangent.direction).abs() < 1e-3, "{shape:?} {}: {normal} {:?}", part.name, tangent.direction);
+            assert!(
+                normal.dot(tangent.direction).abs() < 1e-3,
+                "{shape:?} {}: {normal} {:?}",
+                part.name,
+                tangent.direction
+            );
             assert_eq!(tangent.handedness, 1.0, "{shape:?} {}: no picture is mirrored", part.name);
         }
     }

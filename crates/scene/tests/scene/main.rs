@@ -1,0 +1,9 @@
+//! Files of scenes: glTF, scene files, the project's examples, the models beside the project.
+
+mod data;
+mod examples;
+mod gltf;
+mod gltf_material;
+mod hostile;
+mod scene_file;
+mod support;
