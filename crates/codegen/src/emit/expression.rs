@@ -140,6 +140,7 @@ pub(crate) struct Writer<'w, 'a> {
     pub(crate) uses: Uses,
     pub(crate) body: Text,
     atoms: Vec<String>,
+    types: Vec<Ty>,
 }
 
 impl<'w, 'a> Writer<'w, 'a> {
@@ -150,8 +151,8 @@ impl<'w, 'a> Writer<'w, 'a> {
         entrance: Entrance,
         displaced: bool,
     ) -> Self {
-        let (uses, body, atoms) = (Uses::default(), Text::default(), Vec::new());
-        Writer { program, index, names, entrance, displaced, uses, body, atoms }
+        let (uses, body, atoms, types) = (Uses::default(), Text::default(), Vec::new(), Vec::new());
+        Writer { program, index, names, entrance, displaced, uses, body, atoms, types }
     }
 
     /// Writes every expression of a stage; after it, [`Writer::atom`] gives their names.
@@ -164,6 +165,7 @@ impl<'w, 'a> Writer<'w, 'a> {
                 _ => text,
             };
             self.atoms.push(atom);
+            self.types.push(entry.ty);
         }
         Ok(())
     }
@@ -209,10 +211,17 @@ impl<'w, 'a> Writer<'w, 'a> {
                 self.names.samplers[self.names.sampler_of[*image]].0.clone()
             }
             Expr::Field { of, name } => format!("{}.{name}", self.atom(*of)),
-            Expr::Convert { of } => match entry.ty {
-                Ty::Value(ty) => format!("{}({})", ty.wgsl(), self.atom(*of)),
-                _ => self.atom(*of).to_owned(),
-            },
+            Expr::Convert { of } => {
+                let (from, atom) = (self.types[of.index()], self.atom(*of));
+                match entry.ty {
+                    // WGSL spreads only what has the vector's component type.
+                    Ty::Value(ty) if ty != Type::F32 && from == Ty::Value(Type::I32) => {
+                        format!("{}(f32({atom}))", ty.wgsl())
+                    }
+                    Ty::Value(ty) => format!("{}({atom})", ty.wgsl()),
+                    _ => atom.to_owned(),
+                }
+            }
             Expr::Builtin { name: "*", arguments } => {
                 arguments.iter().map(|id| self.atom(*id)).collect::<Vec<_>>().join(" * ")
             }

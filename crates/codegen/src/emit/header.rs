@@ -78,7 +78,7 @@ fn methods(plan: &Plan, needs: &Needs) -> String {
         _ => false,
     };
     let chosen = TERMS.iter().filter(|term| used(term.name));
-    chosen.map(|term| format!("{} = {}", term.name, needs.methods.get(term.name).name)).collect::<Vec<_>>().join(", ")
+    chosen.map(|term| format!("{}={}", term.name, needs.methods.get(term.name).name)).collect::<Vec<_>>().join(", ")
 }
 
 /// A paragraph of comment lines, broken between words.

@@ -85,3 +85,12 @@ fn every_type_of_generic_nodes() {
         }
     }
 }
+
+/// A whole number spreads over a vector by way of a float.
+#[test]
+fn whole_numbers_become_vectors() {
+    let node = r#""probe": {"node": "input/integer"}"#;
+    let link = r#"{"from": "probe.out", "to": "surface.base_color"}"#;
+    let text = made(&material("", node, link), &environment(), Fold::Live).wgsl;
+    assert!(text.contains("vec3f(f32("), "{text}");
+}
