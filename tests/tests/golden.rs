@@ -172,12 +172,12 @@ fn goldens_pass_the_judges() {
         }
         for golden in goldens() {
             for kind in TARGETS {
-                for file in target::export(&golden.shader, *kind, &golden.name).expect("an export") {
+                for file in target::export(&golden.shader, kind, &golden.name).expect("an export") {
                     if !suffixes.iter().any(|s| file.name.ends_with(s)) {
                         continue;
                     }
                     // glslangValidator knows the stage by the last suffix.
-                    let path = folder.path().join(format!("{}-{}", kind.name(), file.name));
+                    let path = folder.path().join(format!("{}-{}", kind.name, file.name));
                     std::fs::write(&path, &file.bytes).expect("a temporary file");
                     let output = Command::new(judge).args(arguments).arg(&path).output().expect("the judge runs");
                     assert!(
