@@ -1,2 +1,56 @@
-//! The halfvector program.
-fn main() {}
+//! The program `halfvector`: the command line, which is a contract (ARCHITECTURE.md), and nothing of the work itself.
+
+mod commands;
+mod environment;
+mod failure;
+mod input;
+mod output;
+mod picture_file;
+mod set_value;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::commands::{check, export, first_light, methods, nodes, render};
+
+/// Materials as node graphs: draw them, take their shaders, check them.
+///
+/// Without a command it draws an embedded example and writes the picture and its WGSL to the folder out/.
+#[derive(Parser, Debug)]
+#[command(name = "halfvector", version, after_help = "Example:
+  halfvector render examples/surface.material.json --set metallic=1 -o metal.png
+
+Exit codes: 0 done, 1 the input is wrong, 2 the command line is wrong, 3 `check` found something.")]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    Render(Box<render::RenderArgs>),
+    Export(export::ExportArgs),
+    Check(check::CheckArgs),
+    Nodes(nodes::NodesArgs),
+    Methods(methods::MethodsArgs),
+}
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let result = match &cli.command {
+        None => first_light::run(),
+        Some(Command::Render(args)) => render::run(args),
+        Some(Command::Export(args)) => export::run(args),
+        Some(Command::Check(args)) => check::run(args),
+        Some(Command::Nodes(args)) => nodes::run(args),
+        Some(Command::Methods(args)) => methods::run(args),
+    };
+    match result {
+        Ok(code) => ExitCode::from(code),
+        Err(failure) => {
+            output::note(&failure);
+            ExitCode::from(failure.code)
+        }
+    }
+}

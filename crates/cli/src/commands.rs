@@ -1,0 +1,8 @@
+//! The commands, one file each.
+
+pub(crate) mod check;
+pub(crate) mod export;
+pub(crate) mod first_light;
+pub(crate) mod methods;
+pub(crate) mod nodes;
+pub(crate) mod render;

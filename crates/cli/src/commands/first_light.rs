@@ -1,0 +1,40 @@
+//! `halfvector` without a command: the embedded example as a picture and as a shader, so that a first run shows something.
+
+use std::path::Path;
+
+use halfvector_codegen::Fold;
+use halfvector_codegen::target::{export, target};
+use halfvector_graph::library::Library;
+use halfvector_scene::{BuiltinMesh, MeshSource, Scene};
+
+use crate::commands::{export::plain_needs, render::draw};
+use crate::failure::Failure;
+use crate::output::{note, write_file};
+use crate::picture_file::{PictureFile, PictureFormat};
+
+/// The example that is drawn.
+const EXAMPLE: &str = include_str!("../example.material.json");
+
+/// Where the results go.
+const FOLDER: &str = "out";
+
+/// Runs the command.
+pub(crate) fn run() -> Result<u8, Failure> {
+    note("There is no editor yet: an embedded example is drawn to out/. `halfvector --help` lists the commands.");
+    let broken = |why: String| Failure::input("the embedded example is broken").because(why);
+    let document = halfvector_graph::file::from_json(EXAMPLE).map_err(|error| broken(error.to_string()))?;
+    let folder = Path::new(FOLDER);
+    let shader = halfvector_codegen::shader(&document, Library::standard(), &plain_needs(), Fold::Export)
+        .map_err(|error| broken(error.to_string()))?;
+    let wgsl = target("wgsl").ok_or_else(|| broken("there is no target wgsl".to_owned()))?;
+    for file in export(&shader, wgsl, "example").map_err(|error| broken(error.to_string()))? {
+        let path = folder.join(&file.name);
+        write_file(&path, &file.bytes)?;
+        note(path.display());
+    }
+    let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
+    let scene =
+        Scene::from_material(document, Path::new(""), &sphere).map_err(|error| broken(error.to_string()))?;
+    draw(&scene, [512, 512], 4, &PictureFile { path: folder.join("example.png"), format: PictureFormat::Png })?;
+    Ok(0)
+}

@@ -1,0 +1,262 @@
+//! `halfvector render`: a picture of a material or scene.
+
+use std::path::{Path, PathBuf};
+
+use halfvector_graph::library::Library;
+use halfvector_graph::method::Methods;
+use halfvector_graph::needs::ToneMap;
+use halfvector_render::{RenderOptions, Renderer};
+use halfvector_scene::{Background, EnvironmentSource, Exposure, Light, MeshSource, Scene};
+
+use crate::environment::{bake, load};
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{check_place, note, progress};
+use crate::picture_file::{Display, PictureFile, PictureFormat, parse_picture_file, write};
+use crate::set_value::{Assignment, numbers, parse_assignment, set};
+
+/// Draws a material or scene to a picture.
+///
+/// A bare material is drawn on a unit sphere under the environment `studio`, without punctual lights; each option replaces
+/// only its own part.
+#[derive(clap::Args, Debug)]
+#[command(after_help = "Examples:
+  halfvector render examples/surface.material.json --set metallic=1 --set base_color=1,0.766,0.336 -o gold.png
+  halfvector render examples/surface.material.json --env none --light directional:1,1,1:3 --background none -o lit.png
+  halfvector render examples/report-1-mirror.scene.json --size 800x600 --samples 64 -o mirror.exr")]
+pub(crate) struct RenderArgs {
+    /// A material (*.material.json), scene (*.scene.json) or model (.glb, .gltf)
+    #[arg(value_name = "DOC|SCENE")]
+    input: PathBuf,
+    /// The picture: .png (sRGB, tone-mapped), .exr or .hdr (linear radiance, no exposure, no tone map)
+    #[arg(short, long, value_name = "OUT", value_parser = parse_picture_file)]
+    output: PictureFile,
+    /// What wears the material: sphere, plane, cube, torus, shaderball, or a .glb or .gltf file
+    #[arg(long, value_name = "MESH", value_parser = parse_mesh)]
+    mesh: Option<MeshSource>,
+    /// The environment: white, studio, sky, none, or a .hdr, .exr or .hdre file
+    #[arg(long, value_name = "ENV", value_parser = parse_environment)]
+    env: Option<EnvironmentSource>,
+    /// Turns the environment counter-clockwise seen from above, in degrees
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = parse_finite)]
+    env_rotation: Option<f32>,
+    /// What stands behind: env, none (alpha 0), or linear radiance R,G,B
+    #[arg(long, value_name = "env|none|R,G,B", value_parser = parse_background)]
+    background: Option<Background>,
+    /// A punctual light; may be given several times and replaces the scene's lights
+    #[arg(long, value_name = "SPEC", value_parser = halfvector_scene::light::parse_light, long_help = light_help())]
+    light: Vec<Light>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = parse_size)]
+    size: [u32; 2],
+    /// Samples per pixel: a square number, as they stand on a regular grid
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    samples: u32,
+    /// Brightens a PNG by so many stops
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = parse_finite)]
+    exposure: Option<f32>,
+    /// How a PNG's radiance is brought into the display's range: none, reinhard, aces, agx, pbr-neutral
+    #[arg(long, value_name = "NAME", value_parser = halfvector_scene::tone_map::tone_map_from_name)]
+    tone_map: Option<ToneMap>,
+    /// Sets a parameter that the material exposes; may be given several times
+    #[arg(long, value_name = "PARAMETER=VALUE", value_parser = parse_assignment)]
+    set: Vec<Assignment>,
+    #[command(flatten)]
+    methods: super::methods::MethodChoice,
+    /// Who draws: auto or gpu
+    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = parse_backend)]
+    backend: Backend,
+}
+
+/// Who draws. With one backend there is no choice yet: both mean the best GPU, a software one included.
+#[derive(Clone, Copy, Debug)]
+enum Backend {
+    Auto,
+    Gpu,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
+    // Both mean the same as long as there is no other backend.
+    let (Backend::Auto | Backend::Gpu) = args.backend;
+    check_place(&args.output.path)?;
+    let mut scene = input::scene(&args.input, args.mesh.as_ref())?;
+    replace_parts(&mut scene, args)?;
+    refuse_coded_radiance(&scene.methods, &args.output)?;
+    for text in &scene.notes {
+        note(format_args!("note: {text}"));
+    }
+    let side = samples_per_side(args.samples);
+    if side * side != args.samples {
+        note(format_args!("note: samples stand on a square grid; {} are taken instead of {}", side * side, args.samples));
+    }
+    draw(&scene, args.size, side, &args.output)?;
+    Ok(0)
+}
+
+/// Draws a scene to a file.
+pub(crate) fn draw(scene: &Scene, size: [u32; 2], side: u32, output: &PictureFile) -> Result<(), Failure> {
+    let failed = |error: halfvector_render::RenderError| Failure::input("the picture could not be drawn").because(error);
+    let loaded = load(scene)?;
+    let renderer = Renderer::new().map_err(failed)?;
+    let environment = loaded.map(|loaded| bake(scene, &loaded));
+    let [width, height] = size;
+    let options = RenderOptions { width, height, samples_per_side: side, ..RenderOptions::default() };
+    let bar = progress("drawing");
+    let picture = renderer
+        .render(scene, environment.as_ref(), &options, |done| bar.set_position((done * 1000.0) as u64))
+        .map_err(failed)?;
+    bar.finish_and_clear();
+    let display = if scene.methods.is("encode", "report") {
+        Display::AsIs
+    } else {
+        Display::ToneMapped { exposure: scene.exposure.factor(), tone_map: scene.tone_map }
+    };
+    write(output, &picture, display)?;
+    note(format_args!("{}: {width} x {height}, drawn by {}", output.path.display(), renderer.adapter()));
+    Ok(())
+}
+
+fn replace_parts(scene: &mut Scene, args: &RenderArgs) -> Result<(), Failure> {
+    if let Some(environment) = &args.env {
+        scene.environment = environment.clone();
+    }
+    if let Some(rotation) = args.env_rotation {
+        scene.environment_rotation = rotation;
+    }
+    if let Some(background) = args.background {
+        scene.background = background;
+    }
+    if !args.light.is_empty() {
+        scene.lights.clone_from(&args.light);
+    }
+    if let Some(stops) = args.exposure {
+        scene.exposure = Exposure::Stops(stops);
+    }
+    if let Some(tone_map) = args.tone_map {
+        scene.tone_map = tone_map;
+    }
+    args.methods.apply(&mut scene.methods);
+    set_parameters(scene, &args.set, &args.input)
+}
+
+/// Sets each parameter in every material that exposes it; one that no material exposes is an error.
+fn set_parameters(scene: &mut Scene, assignments: &[Assignment], path: &Path) -> Result<(), Failure> {
+    for assignment in assignments {
+        let failed = |why: String| {
+            Failure::input("a parameter could not be set").at(path).because(why).try_to("a name and value as listed")
+        };
+        let mut reasons = Vec::new();
+        let mut done = false;
+        for material in &mut scene.materials {
+            match set(&mut material.document, Library::standard(), assignment) {
+                Ok(()) => done = true,
+                Err(why) => reasons.push(why),
+            }
+        }
+        if !done {
+            return Err(failed(reasons.first().cloned().unwrap_or_else(|| "the scene has no material".to_owned())));
+        }
+    }
+    if !assignments.is_empty() {
+        for material in &scene.materials {
+            input::refuse_errors(path, &material.document)?;
+        }
+        scene.load_images().map_err(|error| Failure::input("an image could not be loaded").at(path).because(error))?;
+    }
+    Ok(())
+}
+
+/// With `encode=report` the shader's output is no radiance.
+fn refuse_coded_radiance(methods: &Methods, output: &PictureFile) -> Result<(), Failure> {
+    if methods.is("encode", "report") && output.format != PictureFormat::Png {
+        return Err(Failure::usage("with encode=report there is no radiance to write")
+            .at(&output.path)
+            .because("the report codes the reflection for the display before it is multiplied by the albedo")
+            .try_to("a .png file, or --method encode=srgb"));
+    }
+    Ok(())
+}
+
+fn samples_per_side(samples: u32) -> u32 {
+    let root = samples.isqrt();
+    if root * root == samples { root } else { root + 1 }
+}
+
+fn parse_mesh(text: &str) -> Result<MeshSource, String> {
+    MeshSource::parse(text, Path::new(""))
+}
+
+fn parse_environment(text: &str) -> Result<EnvironmentSource, String> {
+    Ok(EnvironmentSource::parse(text, Path::new("")))
+}
+
+fn parse_finite(text: &str) -> Result<f32, String> {
+    match numbers(text)?[..] {
+        [number] => Ok(number),
+        _ => Err("one number is needed".to_owned()),
+    }
+}
+
+fn parse_background(text: &str) -> Result<Background, String> {
+    match text {
+        "env" => Ok(Background::Environment),
+        "none" => Ok(Background::None),
+        color => match numbers(color).as_deref() {
+            Ok(&[r, g, b]) if r >= 0.0 && g >= 0.0 && b >= 0.0 => Ok(Background::Color([r, g, b])),
+            _ => Err("write env, none, or a linear colour R,G,B of numbers from 0".to_owned()),
+        },
+    }
+}
+
+/// Most pixels of a picture: 4 GiB of samples' means.
+const MAX_PIXELS: u64 = 1 << 28;
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let wanted = || "write WIDTHxHEIGHT in pixels, such as 800x600".to_owned();
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(wanted)?;
+    let side = |text: &str| text.parse::<u32>().ok().filter(|&side| side > 0).ok_or_else(wanted);
+    let (width, height) = (side(width)?, side(height)?);
+    if u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(format!("that is more than {MAX_PIXELS} pixels; choose a smaller size"));
+    }
+    Ok([width, height])
+}
+
+fn parse_backend(text: &str) -> Result<Backend, String> {
+    match text {
+        "auto" => Ok(Backend::Auto),
+        "gpu" => Ok(Backend::Gpu),
+        "cpu" | "reference" => Err(format!("the backend `{text}` does not exist yet; auto and gpu do, and both take a software GPU where there is no other")),
+        _ => Err("the backends are auto and gpu".to_owned()),
+    }
+}
+
+fn light_help() -> String {
+    format!(
+        "A punctual light; may be given several times and replaces the scene's lights.\n{}",
+        halfvector_scene::light::LIGHT_SYNTAX
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_are_rounded_up_to_squares() {
+        assert_eq!([1, 2, 4, 5, 16, 17, 4096].map(samples_per_side), [1, 2, 2, 3, 4, 5, 64]);
+    }
+
+    #[test]
+    fn sizes_and_backgrounds_as_written() {
+        assert_eq!(parse_size("800x600"), Ok([800, 600]));
+        for wrong in ["800", "0x5", "-1x5", "axb", "800x600x3", "4294967295x4294967295", ""] {
+            assert!(parse_size(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(parse_background("0.5,0,1"), Ok(Background::Color([0.5, 0.0, 1.0])));
+        for wrong in ["0.5", "1,2", "-1,0,0", "inf,0,0", "red"] {
+            assert!(parse_background(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! What leaves the program: text on stdout, files that are there whole or not at all, progress on a terminal.
+
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::path::Path;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::failure::Failure;
+
+/// Prints a text and a line break on stdout. A reader that has gone away (`| head`) is no failure.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match writeln!(out, "{}", text.trim_end_matches('\n')).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::input("the result could not be printed").because(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints a JSON value on stdout.
+pub(crate) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
+    print(&format!("{value:#}"))
+}
+
+/// Tells the user something beside the result, on stderr.
+pub(crate) fn note(text: impl std::fmt::Display) {
+    // Nobody is left to tell when stderr is closed.
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// Refuses a place for a file before any work is done: a folder of that name, or something else in a folder's place.
+pub(crate) fn check_place(path: &Path) -> Result<(), Failure> {
+    let refused = |why: String| Err(Failure::input("the result cannot be written there").at(path).because(why));
+    if path.is_dir() {
+        return refused("a folder has this name".to_owned());
+    }
+    for above in path.ancestors().skip(1).filter(|above| !above.as_os_str().is_empty()) {
+        if above.is_dir() {
+            return Ok(());
+        }
+        if above.exists() {
+            return refused(format!("{} is not a folder", above.display()));
+        }
+    }
+    Ok(())
+}
+
+/// Writes a file whole: under another name in the same folder first, then renamed. Missing folders are made.
+pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder).and_then(|()| halfvector_graph::file::replace(path, bytes)).map_err(|error| {
+        Failure::input("the file could not be written")
+            .at(path)
+            .because(error)
+            .try_to("another folder, or one with more space or other permissions")
+    })
+}
+
+/// A progress bar on stderr; nothing when stderr is not a terminal.
+pub(crate) fn progress(what: &str) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(1000);
+    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {percent} % {elapsed}") {
+        bar.set_style(style.progress_chars("=> "));
+    }
+    bar.set_message(what.to_owned());
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_else_stays() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("new/result.txt");
+        check_place(&path).expect("a free place");
+        write_file(&path, b"one").expect("written");
+        write_file(&path, b"two").expect("replaced");
+        assert_eq!(std::fs::read(&path).expect("readable"), b"two");
+        assert_eq!(std::fs::read_dir(folder.path().join("new")).expect("the folder").count(), 1);
+        check_place(&path.join("below")).expect_err("a file is no folder");
+        check_place(folder.path()).expect_err("a folder is no file");
+    }
+}

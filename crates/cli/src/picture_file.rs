@@ -1,0 +1,157 @@
+//! Pictures as files: PNG for looking at, EXR and HDR for linear radiance.
+
+use std::path::{Path, PathBuf};
+
+use halfvector_graph::needs::ToneMap;
+use halfvector_render::Picture;
+use halfvector_scene::tone_map::tone_mapped;
+use image::{ExtendedColorType, ImageEncoder};
+
+use crate::failure::Failure;
+use crate::output::write_file;
+
+/// A picture file to write.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct PictureFile {
+    /// Where.
+    pub(crate) path: PathBuf,
+    /// What the extension says.
+    pub(crate) format: PictureFormat,
+}
+
+/// A format of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PictureFormat {
+    /// 8-bit sRGB, straight alpha.
+    Png,
+    /// 32-bit floats, linear, premultiplied alpha.
+    Exr,
+    /// Radiance RGBE, linear, without alpha.
+    Hdr,
+}
+
+/// How radiance becomes the 8-bit codes of a PNG.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Display {
+    /// Times a factor, through a tone map, then sRGB.
+    ToneMapped {
+        /// Factor from radiance.
+        exposure: f32,
+        /// After it.
+        tone_map: ToneMap,
+    },
+    /// The picture holds display values already (`encode=report`).
+    AsIs,
+}
+
+/// Reads a file name by its extension.
+pub(crate) fn parse_picture_file(text: &str) -> Result<PictureFile, String> {
+    let path = PathBuf::from(text);
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    let format = match extension.as_deref() {
+        Some("png") => PictureFormat::Png,
+        Some("exr") => PictureFormat::Exr,
+        Some("hdr") => PictureFormat::Hdr,
+        _ => return Err("the file name must end in .png, .exr or .hdr".to_owned()),
+    };
+    Ok(PictureFile { path, format })
+}
+
+/// Writes a picture in the file's format.
+pub(crate) fn write(file: &PictureFile, picture: &Picture, display: Display) -> Result<(), Failure> {
+    let bytes = match file.format {
+        PictureFormat::Png => png(picture, display),
+        PictureFormat::Exr => exr(picture),
+        PictureFormat::Hdr => hdr(picture),
+    };
+    let bytes = bytes.map_err(|error| encoding_failed(&file.path, &error))?;
+    write_file(&file.path, &bytes)
+}
+
+fn encoding_failed(path: &Path, error: &image::ImageError) -> Failure {
+    Failure::input("the picture could not be coded").at(path).because(error).try_to("a smaller --size, or another format")
+}
+
+fn png(picture: &Picture, display: Display) -> Result<Vec<u8>, image::ImageError> {
+    let codes: Vec<u8> = picture.pixels.iter().flat_map(|&pixel| codes(pixel, display)).collect();
+    let mut bytes = Vec::new();
+    image::codecs::png::PngEncoder::new(&mut bytes).write_image(
+        &codes,
+        picture.width,
+        picture.height,
+        ExtendedColorType::Rgba8,
+    )?;
+    Ok(bytes)
+}
+
+fn exr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let floats: Vec<u8> = picture.pixels.iter().flatten().flat_map(|channel| channel.to_ne_bytes()).collect();
+    image::codecs::openexr::OpenExrEncoder::new(&mut bytes).write_image(
+        &floats,
+        picture.width,
+        picture.height,
+        ExtendedColorType::Rgba32F,
+    )?;
+    Ok(bytes.into_inner())
+}
+
+fn hdr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
+    let mut bytes = Vec::new();
+    let pixels: Vec<_> = picture.pixels.iter().map(|&[r, g, b, _]| image::Rgb([r, g, b].map(|c| c.max(0.0)))).collect();
+    image::codecs::hdr::HdrEncoder::new(&mut bytes).encode(
+        &pixels,
+        picture.width as usize,
+        picture.height as usize,
+    )?;
+    Ok(bytes)
+}
+
+/// The codes of a pixel. PNG has straight alpha: the colour is what lies behind the coverage.
+fn codes([r, g, b, alpha]: [f32; 4], display: Display) -> [u8; 4] {
+    let alpha = alpha.clamp(0.0, 1.0);
+    let straight = if alpha > 0.0 { [r, g, b].map(|c| c / alpha) } else { [0.0; 3] };
+    let [r, g, b] = match display {
+        Display::AsIs => straight,
+        Display::ToneMapped { exposure, tone_map } => {
+            halfvector_maps::color::srgb_from_linear(tone_mapped(tone_map, straight.map(|c| c * exposure)))
+        }
+    };
+    // NaN becomes 0, as `as` does it.
+    [r, g, b, alpha].map(|c| (c.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAIN: Display = Display::ToneMapped { exposure: 1.0, tone_map: ToneMap::None };
+
+    #[test]
+    fn pixels_are_coded_with_straight_alpha() {
+        // A half covered pixel of radiance 0.25: 0.25 is 137 in sRGB.
+        assert_eq!(codes([0.125, 0.125, 0.125, 0.5], PLAIN), [137, 137, 137, 128]);
+        assert_eq!(codes([0.0; 4], PLAIN), [0; 4]);
+        assert_eq!(codes([f32::NAN, 2.0, -1.0, 1.0], PLAIN), [0, 255, 0, 255]);
+        assert_eq!(codes([0.5, 0.25, 0.0, 1.0], Display::AsIs), [128, 64, 0, 255]);
+        let brighter = Display::ToneMapped { exposure: 2.0, tone_map: ToneMap::None };
+        assert_eq!(codes([0.125, 0.125, 0.125, 1.0], brighter), [137, 137, 137, 255]);
+    }
+
+    #[test]
+    fn formats_are_told_by_the_extension() {
+        assert_eq!(parse_picture_file("a/b.PNG").expect("png").format, PictureFormat::Png);
+        assert_eq!(parse_picture_file("b.exr").expect("exr").format, PictureFormat::Exr);
+        assert!(parse_picture_file("b.jpg").is_err() && parse_picture_file("png").is_err());
+    }
+
+    #[test]
+    fn radiance_survives_the_files() {
+        let picture = Picture { width: 2, height: 1, pixels: vec![[0.5, 7.0, 1e-3, 0.25], [1e4, 0.0, 2.0, 1.0]] };
+        let read = |bytes: Vec<u8>| image::load_from_memory(&bytes).expect("readable").into_rgba32f();
+        let exr = read(exr(&picture).expect("coded"));
+        assert_eq!(exr.as_raw().as_slice(), picture.pixels.as_flattened());
+        let hdr = read(hdr(&picture).expect("coded"));
+        assert!((hdr.get_pixel(0, 0)[1] - 7.0).abs() < 0.04 && (hdr.get_pixel(1, 0)[0] - 1e4).abs() < 50.0);
+    }
+}

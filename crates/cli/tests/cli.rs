@@ -1,0 +1,357 @@
+//! The command line as a user meets it: each command, each kind of mistake, its exit code and its words.
+//! Pictures need a GPU (a software one will do): without one those parts are skipped with a printed line, and fail when
+//! `HALFVECTOR_REQUIRE_GPU=1`.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+const PLAIN: &str = r#"{"halfvector": 1, "name": "plain",
+  "nodes": {"surface": {"node": "surface/surface", "values": {"base_color": [0.5, 0.2, 0.1]}}},
+  "links": [],
+  "parameters": [
+    {"name": "base_color", "socket": "surface.base_color"},
+    {"name": "metallic", "socket": "surface.metallic"}
+  ]}"#;
+
+/// A folder with a plain material in it.
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Folder {
+        let folder = Folder(tempfile::tempdir().expect("a folder"));
+        folder.write("plain.material.json", PLAIN);
+        folder
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        std::fs::write(self.path(name), text).expect("written");
+    }
+
+    fn run(&self, arguments: &[&str]) -> Run {
+        let output = Command::new(env!("CARGO_BIN_EXE_halfvector"))
+            .args(arguments)
+            .current_dir(self.0.path())
+            .stdin(Stdio::null())
+            .output()
+            .expect("the program starts");
+        Run::new(arguments, &output)
+    }
+
+    /// Names of the files in the folder, sorted.
+    fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.0.path()).expect("the folder");
+        let mut names: Vec<_> = entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+}
+
+/// What a run said and how it ended.
+struct Run {
+    command: String,
+    code: Option<i32>,
+    stdout: String,
+    stderr: String,
+}
+
+impl Run {
+    fn new(arguments: &[&str], output: &Output) -> Run {
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let run = Run {
+            command: arguments.join(" "),
+            code: output.status.code(),
+            stdout: text(&output.stdout),
+            stderr: text(&output.stderr),
+        };
+        assert!(!run.stderr.contains("panicked"), "{}: {}", run.command, run.stderr);
+        run
+    }
+
+    #[track_caller]
+    fn ends(self, code: i32) -> Run {
+        assert_eq!(self.code, Some(code), "{}\n{}\n{}", self.command, self.stdout, self.stderr);
+        self
+    }
+
+    #[track_caller]
+    fn says(self, words: &str) -> Run {
+        assert!(self.stderr.contains(words), "{}: `{words}` is not in\n{}", self.command, self.stderr);
+        self
+    }
+
+    #[track_caller]
+    fn json(&self) -> serde_json::Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|e| panic!("{}: {e} in\n{}", self.command, self.stdout))
+    }
+
+    /// Whether the run failed for want of a GPU; then a line is printed.
+    fn lacks_gpu(&self) -> bool {
+        let lacks = self.code == Some(1) && self.stderr.contains("no GPU was found");
+        if lacks {
+            assert!(std::env::var("HALFVECTOR_REQUIRE_GPU").as_deref() != Ok("1"), "{}", self.stderr);
+            assert!(self.stderr.contains("mesa-vulkan-drivers"));
+            println!("skipped: {} needs a GPU", self.command);
+        }
+        lacks
+    }
+}
+
+#[test]
+fn every_command_has_help_with_an_example() {
+    let folder = Folder::new();
+    for command in ["", "render", "export", "check", "nodes", "methods"] {
+        let arguments: Vec<_> = [command, "--help"].into_iter().filter(|a| !a.is_empty()).collect();
+        let help = folder.run(&arguments).ends(0).stdout;
+        assert!(help.contains("Example") && help.contains("halfvector"), "{command}: {help}");
+    }
+    folder.run(&["paint"]).ends(2);
+    folder.run(&["--version"]).ends(0);
+}
+
+#[test]
+fn wrong_usage_ends_with_2_before_any_work() {
+    let folder = Folder::new();
+    let render = |more: &[&str]| {
+        let mut arguments = vec!["render", "plain.material.json"];
+        arguments.extend(more);
+        folder.run(&arguments).ends(2)
+    };
+    render(&[]).says("--output");
+    render(&["-o", "a.jpg"]).says(".png, .exr or .hdr");
+    for (option, value, words) in [
+        ("--size", "0x4", "WIDTHxHEIGHT"),
+        ("--size", "100000x100000", "smaller size"),
+        ("--samples", "0", "1..=4096"),
+        ("--samples", "many", "invalid digit"),
+        ("--backend", "cpu", "does not exist yet"),
+        ("--backend", "abacus", "auto and gpu"),
+        ("--light", "candle:1", "candle"),
+        ("--tone-map", "sepia", "pbr-neutral"),
+        ("--background", "blue", "R,G,B"),
+        ("--exposure", "inf", "not finite"),
+        ("--env-rotation", "north", "not a number"),
+        ("--method", "v=square", "correlated"),
+        ("--method", "w=x", "no term"),
+        ("--method", "v", "TERM=NAME"),
+        ("--preset", "best", "report"),
+        ("--set", "metallic", "PARAMETER=VALUE"),
+        ("--mesh", "teapot", "shaderball"),
+    ] {
+        render(&["-o", "a.png", option, value]).says(words);
+    }
+    render(&["-o", "a.exr", "--method", "encode=report"]).says("encode=srgb");
+    folder.run(&["export", "plain.material.json", "--target", "cobol", "-o", "x"]).ends(2).says("spirv");
+    folder.run(&["check"]).ends(2);
+    folder.run(&["nodes", "--format", "xml"]).ends(2);
+    assert_eq!(folder.names(), ["plain.material.json"]);
+}
+
+#[test]
+fn wrong_input_ends_with_1_and_says_where() {
+    let folder = Folder::new();
+    folder.write("broken.material.json", "{\"halfvector\": 1,\n  \"nodes\": {");
+    folder.write("list.json", "[]");
+    folder.write("other.json", "{\"a\": 1}");
+    folder.write("lost.scene.json", r#"{"halfvector": 1, "objects": [{"mesh": "sphere", "material": "gone.material.json"}]}"#);
+    folder.write("wrong.scene.json", r#"{"halfvector": 1, "objects": [{"mesh": "teapot"}]}"#);
+    folder.write("bad.glb", "glTF");
+    folder.write("bad.hdr", "#?RADIANCE\nnonsense");
+    folder.write(
+        "unknown.material.json",
+        r#"{"halfvector": 1, "nodes": {"surface": {"node": "surface/surface", "values": {"metallic": "shiny"}}}, "links": []}"#,
+    );
+    folder.write("empty.material.json", r#"{"halfvector": 1, "nodes": {}, "links": []}"#);
+    let before = folder.names();
+    for (input, words) in [
+        ("missing.material.json", "missing.material.json"),
+        ("broken.material.json", "line 2"),
+        ("list.json", "neither a material nor a scene"),
+        ("other.json", "neither `nodes`"),
+        ("lost.scene.json", "gone.material.json"),
+        ("wrong.scene.json", "teapot"),
+        ("bad.glb", "bad.glb"),
+        ("unknown.material.json", "metallic"),
+        ("empty.material.json", "surface"),
+        (".", "could not be read"),
+    ] {
+        let run = folder.run(&["render", input, "-o", "a.png"]).ends(1).says(words).says("error: ");
+        assert!(run.stdout.is_empty());
+    }
+    let render = |more: &[&str]| {
+        let mut arguments = vec!["render", "plain.material.json", "-o", "a.png", "--size", "8x8"];
+        arguments.extend(more);
+        folder.run(&arguments)
+    };
+    render(&["--set", "shine=1"]).ends(1).says("base_color, metallic");
+    render(&["--set", "metallic=1,2"]).ends(1).says("1 number");
+    render(&["--mesh", "gone.glb"]).ends(1).says("gone.glb");
+    folder.run(&["render", "plain.material.json", "-o", "plain.material.json/a.png"]).ends(1).says("not a folder");
+    render(&["--env", "gone.hdr"]).ends(1).says("gone.hdr");
+    render(&["--env", "bad.hdr"]).ends(1).says("bad.hdr");
+    folder.run(&["export", "wrong.scene.json", "--target", "wgsl", "-o", "x"]).ends(1).says("only materials");
+    folder.run(&["export", "plain.material.json", "--target", "wgsl", "-o", "list.json"]).ends(1).says("not a folder");
+    assert_eq!(folder.names(), before, "nothing is written");
+}
+
+#[test]
+fn check_tells_all_problems() {
+    let folder = Folder::new();
+    folder.write(
+        "bad.material.json",
+        r#"{"halfvector": 1, "name": "bad", "nodes": {
+            "surface": {"node": "surface/surface", "label": "Skin", "values": {"metallic": [1, 2], "shine": 3}},
+            "what": {"node": "math/nothing"}},
+          "links": [{"from": "what.out", "to": "surface.base_color"}]}"#,
+    );
+    let sound = folder.run(&["check", "plain.material.json"]).ends(0);
+    assert_eq!(sound.stdout.trim(), "no problems");
+    let empty = folder.run(&["check", "plain.material.json", "--format", "json"]).ends(0).json();
+    assert_eq!(empty, serde_json::json!({ "problems": [] }));
+
+    let text = folder.run(&["check", "plain.material.json", "bad.material.json"]).ends(3).stdout;
+    for words in ["bad.material.json", "Skin", "metallic", "shine", "math/nothing"] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let run = folder.run(&["check", "bad.material.json", "--format", "json"]).ends(3);
+    let problems = run.json();
+    let problems = problems["problems"].as_array().expect("a list");
+    assert!(problems.len() >= 3, "{problems:?}");
+    assert!(problems.iter().any(|p| p["node"] == "surface" && p["node_label"] == "Skin" && p["socket"] == "metallic"));
+
+    folder.write("cut.material.json", "{");
+    let cut = folder.run(&["check", "cut.material.json", "bad.material.json", "--format", "json"]).ends(1);
+    assert!(cut.json()["problems"].as_array().is_some_and(|list| list.len() > problems.len()));
+}
+
+#[test]
+fn lists_are_one_json_object() {
+    let folder = Folder::new();
+    let nodes = folder.run(&["nodes", "--format", "json"]).ends(0);
+    let list = nodes.json();
+    assert!(list["nodes"].as_array().expect("a list").len() >= 60);
+    assert!(list["nodes"][0]["id"].is_string() && list["nodes"][0]["label"].is_string());
+    assert!(nodes.stderr.is_empty());
+    let methods = folder.run(&["methods", "--format", "json"]).ends(0).json();
+    assert!(methods["methods"].as_array().is_some_and(|list| !list.is_empty()));
+    for command in ["nodes", "methods"] {
+        assert!(folder.run(&[command]).ends(0).stdout.starts_with("# "));
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_halfvector"))
+        .args(["nodes", "--format", "json"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("the program ends");
+    Run::new(&["nodes | true"], &output).ends(0);
+}
+
+#[test]
+fn export_writes_each_target() {
+    let folder = Folder::new();
+    for (target, names) in [
+        ("wgsl", vec!["plain.json", "plain.wgsl"]),
+        ("glsl", vec!["plain.frag", "plain.json", "plain.vert"]),
+        ("glsl-es", vec!["plain.frag", "plain.json", "plain.vert"]),
+        ("hlsl", vec!["plain.hlsl", "plain.json"]),
+        ("msl", vec!["plain.json", "plain.metal"]),
+        ("spirv", vec!["plain.frag.spv", "plain.json", "plain.vert.spv"]),
+    ] {
+        folder.run(&["export", "plain.material.json", "--target", target, "-o", target]).ends(0);
+        let entries = std::fs::read_dir(folder.path(target)).expect("the folder");
+        let mut found: Vec<_> = entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        found.sort();
+        assert_eq!(found, names, "{target}");
+    }
+    let wgsl = std::fs::read_to_string(folder.path("wgsl/plain.wgsl")).expect("the shader");
+    assert!(wgsl.contains("fn fs_main") && !wgsl.contains("texture_cube"), "{wgsl}");
+
+    folder.write(
+        "lit.scene.json",
+        r#"{"halfvector": 1, "objects": [{"mesh": "sphere", "material": "plain.material.json"}], "environment": "studio"}"#,
+    );
+    let arguments =
+        ["export", "plain.material.json", "--target", "wgsl", "-o", "lit", "--scene", "lit.scene.json", "--explain"];
+    let explained = folder.run(&arguments).ends(0).json();
+    assert!(explained["dropped"].as_array().is_some_and(|list| !list.is_empty()), "{explained}");
+    let lit = std::fs::read_to_string(folder.path("lit/plain.wgsl")).expect("the shader");
+    assert!(lit.contains("texture_cube"), "{lit}");
+}
+
+#[test]
+fn render_writes_each_format_and_leaves_nothing_else() {
+    let folder = Folder::new();
+    let options = ["--size", "12x8", "--samples", "3", "--env", "white", "--set", "metallic=1"];
+    for name in ["a.png", "deep/er/a.exr", "a.hdr"] {
+        let mut arguments = vec!["render", "plain.material.json", "-o", name];
+        arguments.extend(options);
+        let run = folder.run(&arguments);
+        if run.lacks_gpu() {
+            return;
+        }
+        let run = run.ends(0).says("4 are taken instead of 3");
+        assert!(run.stdout.is_empty());
+        let picture = image::open(folder.path(name)).expect("a picture");
+        assert_eq!((picture.width(), picture.height()), (12, 8));
+    }
+    assert_eq!(folder.names(), ["a.hdr", "a.png", "deep", "plain.material.json"]);
+}
+
+#[test]
+fn alpha_is_straight_in_a_png() {
+    let folder = Folder::new();
+    let arguments = [
+        "render", "plain.material.json", "-o", "a.png", "--size", "16x16", "--env", "white", "--background", "none",
+        "--set", "base_color=1,1,1", "--tone-map", "none",
+    ];
+    let run = folder.run(&arguments);
+    if run.lacks_gpu() {
+        return;
+    }
+    run.ends(0);
+    let picture = image::open(folder.path("a.png")).expect("a picture").into_rgba8();
+    assert_eq!(picture.get_pixel(0, 0).0, [0; 4]);
+    assert_eq!(picture.get_pixel(8, 8)[3], 255);
+    let edge = picture.pixels().find(|p| (20..235).contains(&p[3])).expect("a pixel that is partly covered");
+    assert!(edge[0] > 200, "the colour is not darkened by the coverage: {edge:?}");
+}
+
+#[test]
+fn without_a_command_the_example_is_drawn() {
+    let folder = Folder::new();
+    let run = folder.run(&[]).says("no editor yet");
+    assert!(folder.path("out/example.wgsl").is_file());
+    if run.lacks_gpu() {
+        return;
+    }
+    run.ends(0);
+    let picture = image::open(folder.path("out/example.png")).expect("a picture");
+    assert!(picture.width() >= 256);
+}
+
+#[test]
+fn without_a_gpu_the_driver_package_is_named() {
+    let folder = Folder::new();
+    let nowhere = Path::new("/nonexistent");
+    let output = Command::new(env!("CARGO_BIN_EXE_halfvector"))
+        .args(["render", "plain.material.json", "-o", "a.png"])
+        .current_dir(folder.0.path())
+        .env("VK_DRIVER_FILES", nowhere)
+        .env("VK_ICD_FILENAMES", nowhere)
+        .env("WGPU_BACKEND", "vulkan")
+        .output()
+        .expect("the program starts");
+    if cfg!(target_os = "linux") {
+        Run::new(&["render without a driver"], &output).ends(1).says("mesa-vulkan-drivers");
+        assert_eq!(folder.names(), ["plain.material.json"]);
+    }
+}
