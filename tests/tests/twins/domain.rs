@@ -57,6 +57,10 @@ impl Numbers {
         z ^ (z >> 31)
     }
 
+    fn coin(&mut self) -> bool {
+        self.bits() & 1 == 0
+    }
+
     /// Uniform in [0, 1], each end once in 32 draws.
     fn unit(&mut self) -> f64 {
         match self.bits() % 32 {
@@ -78,15 +82,15 @@ impl Numbers {
     }
 
     /// Half of them uniform, half of them logarithmic.
-    fn to_1_from(&mut self, low: f32) -> f32 {
-        if self.bits() % 2 == 0 { self.range(low, 1.0) } else { self.magnitude(low, 1.0) }
+    fn up_to_1_from(&mut self, low: f32) -> f32 {
+        if self.coin() { self.range(low, 1.0) } else { self.magnitude(low, 1.0) }
     }
 
     /// A unit vector, rounded to f32; along an axis once in 32 draws.
     fn direction(&mut self) -> [f32; 3] {
-        if self.bits() % 32 == 0 {
+        if self.bits().is_multiple_of(32) {
             let mut axis = [0.0; 3];
-            axis[(self.bits() % 3) as usize] = if self.bits() % 2 == 0 { 1.0 } else { -1.0 };
+            axis[(self.bits() % 3) as usize] = if self.coin() { 1.0 } else { -1.0 };
             return axis;
         }
         let z = 2.0 * self.unit() - 1.0;
@@ -125,15 +129,15 @@ impl Domain {
     pub(crate) fn draw(self, n: &mut Numbers, out: &mut Vec<f32>) {
         match self {
             Domain::Range(low, high) => out.push(n.range(low, high)),
-            Domain::Cosine => out.push(n.to_1_from(1e-6)),
-            Domain::Roughness => out.push(n.to_1_from(1e-4)),
+            Domain::Cosine => out.push(n.up_to_1_from(1e-6)),
+            Domain::Roughness => out.push(n.up_to_1_from(1e-4)),
             Domain::Alpha => {
-                let roughness = n.to_1_from(1e-4);
+                let roughness = n.up_to_1_from(1e-4);
                 out.push(roughness * roughness);
             }
             Domain::Bool => out.push((n.bits() % 2) as f32),
             Domain::HalfAngle => {
-                let sin2 = n.to_1_from(1e-16);
+                let sin2 = n.up_to_1_from(1e-16);
                 out.extend([(1.0 - f64::from(sin2)).sqrt() as f32, sin2]);
             }
             Domain::Pair(low, high) => out.extend([n.range(low, high), n.range(low, high)]),
@@ -160,7 +164,7 @@ impl Domain {
                 let tangent = across(normal, n);
                 let lean = f64::from(n.range(-0.17, 0.17));
                 out.extend(unit([0, 1, 2].map(|i| f64::from(tangent[i]) + lean * f64::from(normal[i]))));
-                out.push(if n.bits() % 2 == 0 { 1.0 } else { -1.0 });
+                out.push(if n.coin() { 1.0 } else { -1.0 });
             }
             Domain::Footprint => {
                 let normal = n.direction();
