@@ -32,43 +32,40 @@ struct ImageKey {
     in_gltf: Option<usize>,
 }
 
+/// Why an image was not loaded, and who wanted it.
+#[derive(Debug, thiserror::Error)]
+#[error("node `{node}` of the material `{material}`: {fault}")]
+pub struct ImageError {
+    /// The material's name.
+    pub material: String,
+    /// The node's label, or its id without one.
+    pub node: String,
+    /// What went wrong.
+    pub fault: ImageFault,
+}
+
 /// Why an image was not loaded.
 #[derive(Debug, thiserror::Error)]
-pub enum ImageError {
+pub enum ImageFault {
     /// The file could not be read.
-    #[error("node `{node}` of the material `{material}`: the image {} could not be read: {reason}; relative paths start at the material's folder", path.display())]
+    #[error("the image {} could not be read: {reason}; relative paths start at the material's folder", path.display())]
     Read {
-        /// The material's name.
-        material: String,
-        /// The node's label or id.
-        node: String,
         /// The file.
         path: PathBuf,
         /// Why.
         reason: String,
     },
     /// The file is no image that can be decoded.
-    #[error("node `{node}` of the material `{material}`: {file}: {source}")]
+    #[error("{file}: {source}")]
     Decode {
-        /// The material's name.
-        material: String,
-        /// The node's label or id.
-        node: String,
         /// The file, with `#N` for an image within a glTF file.
         file: String,
         /// Why.
-        source: halfvector_maps::DecodeError,
+        source: Box<halfvector_maps::DecodeError>,
     },
     /// The glTF file that holds the image was refused.
-    #[error("node `{node}` of the material `{material}`: {source}")]
-    Gltf {
-        /// The material's name.
-        material: String,
-        /// The node's label or id.
-        node: String,
-        /// Why.
-        source: GltfError,
-    },
+    #[error(transparent)]
+    Gltf(Box<GltfError>),
 }
 
 /// Who wants an image first, for messages.
@@ -97,7 +94,7 @@ impl ImageStore {
         for want in wanted.iter().filter(|want| want.key.in_gltf.is_some()) {
             let path = want.key.path.as_path();
             if !assets.contains_key(path) {
-                assets.insert(path, Asset::open(path).map_err(|source| want.gltf_error(source))?);
+                assets.insert(path, Asset::open(path).map_err(|error| want.failed(ImageFault::Gltf(error.into())))?);
             }
         }
         let decoded: Result<Vec<Image>, ImageError> = wanted.par_iter().map(|want| decode(want, &assets)).collect();
@@ -125,33 +122,25 @@ impl ImageStore {
 }
 
 impl Wanted {
-    fn gltf_error(&self, source: GltfError) -> ImageError {
-        ImageError::Gltf { material: self.material.clone(), node: self.node.clone(), source }
+    fn failed(&self, fault: ImageFault) -> ImageError {
+        ImageError { material: self.material.clone(), node: self.node.clone(), fault }
     }
 }
 
 fn decode(want: &Wanted, assets: &BTreeMap<&Path, Asset>) -> Result<Image, ImageError> {
     let path = &want.key.path;
     let decoded = |bytes: &[u8], file: String| {
-        halfvector_maps::decode(bytes, Limits::default()).map_err(|source| ImageError::Decode {
-            material: want.material.clone(),
-            node: want.node.clone(),
-            file,
-            source,
-        })
+        halfvector_maps::decode(bytes, Limits::default())
+            .map_err(|source| want.failed(ImageFault::Decode { file, source: source.into() }))
     };
     match (want.key.in_gltf, assets.get(path.as_path())) {
         (Some(number), Some(asset)) => {
-            let bytes = asset.image_bytes(number).map_err(|source| want.gltf_error(source))?;
+            let bytes = asset.image_bytes(number).map_err(|error| want.failed(ImageFault::Gltf(error.into())))?;
             decoded(&bytes, format!("{}#{number}", path.display()))
         }
         _ => {
-            let bytes = read_limited(path, MAX_FILE_BYTES).map_err(|reason| ImageError::Read {
-                material: want.material.clone(),
-                node: want.node.clone(),
-                path: path.clone(),
-                reason,
-            })?;
+            let bytes = read_limited(path, MAX_FILE_BYTES)
+                .map_err(|reason| want.failed(ImageFault::Read { path: path.clone(), reason }))?;
             decoded(&bytes, path.display().to_string())
         }
     }

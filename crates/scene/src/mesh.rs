@@ -214,7 +214,7 @@ fn check(data: &MeshData) -> Result<(), MeshError> {
             return Err(MeshError::Length { what, count, positions: vertices });
         }
     }
-    if data.indices.len() % 3 != 0 {
+    if !data.indices.len().is_multiple_of(3) {
         return Err(MeshError::Triangles(data.indices.len()));
     }
     if let Some(place) = data.indices.iter().position(|&i| i as usize >= vertices) {

@@ -41,7 +41,7 @@ impl Builder {
 
     /// Appends bytes as a buffer view.
     pub(crate) fn view(&mut self, bytes: &[u8]) -> usize {
-        while self.binary.len() % 4 != 0 {
+        while !self.binary.len().is_multiple_of(4) {
             self.binary.push(0);
         }
         let view = json!({"buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len()});
