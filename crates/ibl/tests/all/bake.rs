@@ -39,6 +39,12 @@ fn cube_shows_the_right_way() {
             assert!((f64::from(*value) - x - 1.0).abs() < 2e-3, "{dir:?}: {value}");
         }
     }
+    // At the corners of the cube three texels meet.
+    for corner in [[1.0, 1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0], [-1.0, -1.0, 1.0]] {
+        for (value, x) in cube.sample(corner).iter().zip(corner) {
+            assert!((f64::from(*value) - x / 3f64.sqrt() - 1.0).abs() < 0.02, "{corner:?}: {value}");
+        }
+    }
     for face in 0..6 {
         let (f, s, t) = face_from_direction(direction_from_face(face, 0.3, -0.7));
         assert!(f == face && (s - 0.3).abs() < 1e-12 && (t + 0.7).abs() < 1e-12);
@@ -59,6 +65,18 @@ fn fine_maps_do_not_alias() {
     for x in cube.texels.iter().flatten() {
         assert!((x - 0.5).abs() < 0.06, "{x}");
     }
+    // A map only a little finer than the cube is not halved first, and still evens out.
+    let map = Equirect {
+        width: 128,
+        height: 64,
+        pixels: (0..128 * 64).map(|k| [((k % 128 + k / 128) % 2) as f32; 3]).collect(),
+    };
+    let cube = cube_from_equirect(&map, 32);
+    let squares: f32 = cube.texels.iter().map(|texel| (texel[0] - 0.5).powi(2)).sum();
+    let deviation = (squares / cube.texels.len() as f32).sqrt();
+    println!("chequers a little finer than the cube: {deviation}");
+    assert!(deviation < 0.11, "{deviation}");
+
     let mut lamp = Equirect { width: 1024, height: 512, pixels: vec![[0.0; 3]; 1024 * 512] };
     lamp.pixels[200 * 1024 + 333] = [1000.0; 3];
     let cube = cube_from_equirect(&lamp, 64);
