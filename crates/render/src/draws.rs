@@ -6,9 +6,10 @@ use halfvector_codegen::reflection::{Binding, Resource, SamplerSource, TextureSo
 use halfvector_codegen::{Fold, Shader};
 use halfvector_graph::document::AlphaMode;
 use halfvector_graph::library::Library;
+use halfvector_graph::method::Methods;
 use halfvector_graph::needs::Needs;
 use halfvector_graph::value::{ColorSpace, ImageRef};
-use halfvector_ibl::BakedEnvironment;
+use halfvector_ibl::{BakedEnvironment, Visibility, dfg_table_with};
 use halfvector_scene::{Object, Scene, SceneMaterial};
 
 use crate::device::Gpu;
@@ -56,12 +57,14 @@ pub(crate) struct EnvironmentTextures<'e> {
     radiance: Option<wgpu::TextureView>,
     irradiance: Option<wgpu::TextureView>,
     dfg: Option<wgpu::TextureView>,
+    visibility: Visibility,
 }
 
 impl<'e> EnvironmentTextures<'e> {
-    /// Nothing uploaded yet.
-    pub(crate) fn new(baked: Option<&'e BakedEnvironment>) -> Self {
-        EnvironmentTextures { baked, radiance: None, irradiance: None, dfg: None }
+    /// Nothing uploaded yet. The table of albedos is made for the visibility that the methods choose.
+    pub(crate) fn new(baked: Option<&'e BakedEnvironment>, methods: &Methods) -> Self {
+        let visibility = if methods.is("v", "separable") { Visibility::Separable } else { Visibility::Correlated };
+        EnvironmentTextures { baked, radiance: None, irradiance: None, dfg: None, visibility }
     }
 
     /// The prefiltered radiance; its level 0 is the environment itself.
@@ -77,7 +80,8 @@ impl<'e> EnvironmentTextures<'e> {
     }
 
     fn dfg(&mut self, gpu: &Gpu) -> wgpu::TextureView {
-        self.dfg.get_or_insert_with(|| texture::dfg(gpu, &halfvector_ibl::dfg_table(DFG_SIZE))).clone()
+        let table = || texture::dfg(gpu, &dfg_table_with(DFG_SIZE, self.visibility));
+        self.dfg.get_or_insert_with(table).clone()
     }
 }
 

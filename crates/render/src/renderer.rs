@@ -102,7 +102,7 @@ impl Renderer {
         let blends = scene.materials.iter().any(|material| material.document.surface.alpha_mode == AlphaMode::Blend);
         let format = gpu.radiance_format(blends)?;
 
-        let mut textures = EnvironmentTextures::new(environment);
+        let mut textures = EnvironmentTextures::new(environment, &needs.methods);
         let (draws, sky, target) = gpu.guarded("preparing the scene", || {
             let draws = prepare(gpu, scene, &needs, options.fold, &view, format, &mut textures)?;
             let sky = match scene.background {
