@@ -1,7 +1,7 @@
 //! The environment of a scene, loaded and baked as its methods ask.
 
 use halfvector_ibl::{BakeOptions, BakedEnvironment, LevelMap, LoadedEnvironment};
-use halfvector_scene::Scene;
+use halfvector_scene::{EnvironmentSource, Scene};
 
 use crate::failure::Failure;
 use crate::output::progress;
@@ -25,5 +25,11 @@ pub(crate) fn bake(scene: &Scene, loaded: &LoadedEnvironment) -> BakedEnvironmen
 
 fn bake_options(scene: &Scene) -> BakeOptions {
     let level_map = if scene.methods.is("level_map", "report") { LevelMap::Report } else { LevelMap::Linear };
-    BakeOptions { level_map, decode_report: scene.methods.is("env_decode", "report"), ..BakeOptions::default() }
+    let decode_report = scene.methods.is("env_decode", "report");
+    let plain = BakeOptions { level_map, decode_report, ..BakeOptions::default() };
+    match scene.environment {
+        // The same from everywhere: a few texels say it.
+        EnvironmentSource::White => BakeOptions { size: 64, irradiance_size: 1, ..plain },
+        _ => plain,
+    }
 }

@@ -222,21 +222,42 @@ fn check_indices(scene: &Scene) -> Result<(), RenderError> {
 /// The shader of each material that an object uses, by the material's index.
 fn shaders(gpu: &Gpu, scene: &Scene, needs: &Needs, fold: Fold) -> Result<HashMap<usize, Shader>, RenderError> {
     let used: BTreeSet<usize> = scene.objects.iter().map(|object| object.material).collect();
-    let limit = gpu.device.limits().max_sampled_textures_per_shader_stage;
     let mut shaders = HashMap::new();
     for index in used {
         let document = &scene.materials[index].document;
-        let material = document.name.clone();
         let shader = halfvector_codegen::shader(document, Library::standard(), needs, fold)
-            .map_err(|error| RenderError::Shader { material: material.clone(), why: error.to_string() })?;
-        let textures = |binding: &&Binding| binding.fragment && matches!(binding.resource, Resource::Texture(_));
-        let count = shader.reflection.bindings.iter().filter(textures).count();
-        if count > limit as usize {
-            return Err(RenderError::TooManyTextures { material, count, limit, adapter: gpu.name.clone() });
-        }
+            .map_err(|error| RenderError::Shader { material: document.name.clone(), why: error.to_string() })?;
+        check_limits(gpu, &document.name, &shader)?;
         shaders.insert(index, shader);
     }
     Ok(shaders)
+}
+
+/// Refuses a shader that reads more than the device can bind, in words that say what to do.
+fn check_limits(gpu: &Gpu, material: &str, shader: &Shader) -> Result<(), RenderError> {
+    let limits = gpu.device.limits();
+    let (material, adapter) = (material.to_owned(), gpu.name.clone());
+    let mut count = 0;
+    for binding in &shader.reflection.bindings {
+        match &binding.resource {
+            Resource::Uniform(block) if u64::from(block.size) > limits.max_uniform_buffer_binding_size => {
+                return Err(RenderError::UniformsTooLarge {
+                    material,
+                    block: block.struct_name.clone(),
+                    bytes: block.size,
+                    limit: limits.max_uniform_buffer_binding_size,
+                    adapter,
+                });
+            }
+            Resource::Texture(_) if binding.fragment => count += 1,
+            _ => {}
+        }
+    }
+    let limit = limits.max_sampled_textures_per_shader_stage;
+    if count > limit as usize {
+        return Err(RenderError::TooManyTextures { material, count, limit, adapter });
+    }
+    Ok(())
 }
 
 /// How an object is rasterised: once; a blended object that shows both sides first with its far side, then with its near one.

@@ -134,6 +134,23 @@ pub enum RenderError {
         /// The device.
         adapter: String,
     },
+    /// A uniform block is larger than the device can bind.
+    #[error(
+        "material `{material}` needs {bytes} bytes for `{block}`, and the GPU `{adapter}` allows {limit}; use fewer \
+         punctual lights, or a material with fewer nodes"
+    )]
+    UniformsTooLarge {
+        /// Its name.
+        material: String,
+        /// Name of the struct.
+        block: String,
+        /// Bytes wanted.
+        bytes: u32,
+        /// Bytes allowed.
+        limit: u64,
+        /// The device.
+        adapter: String,
+    },
     /// The material reads an environment and the caller gave none.
     #[error("the scene has an environment and no baked one was given; bake it first")]
     NoEnvironment,

@@ -137,3 +137,21 @@ fn sample_bytes(format: wgpu::TextureFormat) -> u32 {
 fn row_bytes(format: wgpu::TextureFormat, width: u32) -> u32 {
     (width * sample_bytes(format)).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_formats_are_read() {
+        let wanted = [0.5, -2.0, 1024.0, 1.0];
+        let mut samples = Vec::new();
+        let full: Vec<u8> = wanted.iter().flat_map(|x: &f32| x.to_le_bytes()).collect();
+        append_samples(wgpu::TextureFormat::Rgba32Float, &full, &mut samples);
+        let half: Vec<u8> = wanted.iter().flat_map(|&x| half::f16::from_f32(x).to_le_bytes()).collect();
+        append_samples(wgpu::TextureFormat::Rgba16Float, &half, &mut samples);
+        assert_eq!(samples, [wanted, wanted]);
+        assert_eq!(row_bytes(wgpu::TextureFormat::Rgba32Float, 17), 512);
+        assert_eq!(row_bytes(wgpu::TextureFormat::Rgba16Float, 17), 256);
+    }
+}

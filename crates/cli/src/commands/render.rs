@@ -83,6 +83,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let mut scene = input::scene(&args.input, args.mesh.as_ref())?;
     replace_parts(&mut scene, args)?;
     refuse_coded_radiance(&scene.methods, &args.output)?;
+    if (args.tone_map.is_some() || args.exposure.is_some()) && is_coded_or_linear(&scene.methods, &args.output) {
+        note("note: --tone-map and --exposure do nothing here: .exr and .hdr hold radiance, encode=report display values");
+    }
     for text in &scene.notes {
         note(format_args!("note: {text}"));
     }
@@ -176,6 +179,11 @@ fn refuse_coded_radiance(methods: &Methods, output: &PictureFile) -> Result<(), 
             .try_to("a .png file, or --method encode=srgb"));
     }
     Ok(())
+}
+
+/// Whether the file's numbers are written as the shader gives them.
+fn is_coded_or_linear(methods: &Methods, output: &PictureFile) -> bool {
+    output.format != PictureFormat::Png || methods.is("encode", "report")
 }
 
 fn samples_per_side(samples: u32) -> u32 {
