@@ -1,7 +1,11 @@
 //! Tests across crates, in one binary. Each module is one kind of test; data that is not there is skipped with a printed
 //! line, a missing GPU too, unless `HALFVECTOR_REQUIRE_GPU=1`.
 
+mod device;
+mod docs;
 mod golden;
+mod images;
+mod normal_tangent;
 mod support;
 mod tidy;
 mod twins;

@@ -28,3 +28,16 @@ pub(crate) fn data(path: &str) -> Option<PathBuf> {
         None
     }
 }
+
+/// A renderer on the GPU of this machine, a software one included, or none with a printed line.
+/// `HALFVECTOR_REQUIRE_GPU=1`: none is a failure.
+pub(crate) fn renderer() -> Option<halfvector_render::Renderer> {
+    match halfvector_render::Renderer::new() {
+        Ok(renderer) => Some(renderer),
+        Err(error) => {
+            assert!(!required("HALFVECTOR_REQUIRE_GPU"), "{error}");
+            println!("skipped: {error}");
+            None
+        }
+    }
+}
