@@ -46,7 +46,11 @@ fn rectangle(x0: f32, y0: f32, x1: f32, y1: f32) -> Mesh {
 /// Nothing but black; z = 0 is seen from -1 to 1 in both directions.
 fn empty() -> Scene {
     Scene {
-        camera: Camera { position: [0.0, 0.0, 2.0].into(), vertical_fov: 2.0 * 0.5f32.atan().to_degrees(), ..Camera::default() },
+        camera: Camera {
+            position: [0.0, 0.0, 2.0].into(),
+            vertical_fov: 2.0 * 0.5f32.atan().to_degrees(),
+            ..Camera::default()
+        },
         environment: EnvironmentSource::None,
         background: Background::None,
         ..Scene::default()
@@ -180,7 +184,10 @@ fn a_mirrored_or_turned_surface_is_lit_from_its_front() {
         add(&mut scene, rectangle(-1.0, -1.0, 1.0, 1.0), document, transform);
         let Some(picture) = draw(&scene, None, &options(4, 4, 1)) else { return };
         let found = pixel(&picture, 2, 2)[0];
-        assert!((found - std::f32::consts::FRAC_1_PI).abs() < 1e-5, "{transform}: {found}, a white Lambert at 1 lx is 1/pi");
+        assert!(
+            (found - std::f32::consts::FRAC_1_PI).abs() < 1e-5,
+            "{transform}: {found}, a white Lambert at 1 lx is 1/pi"
+        );
     }
 }
 
@@ -306,7 +313,8 @@ fn live_and_exported_numbers_draw_the_same_picture() {
     let Some(live) = draw(&scene, Some(&baked), &RenderOptions { fold: Fold::Live, ..options(64, 64, 1) }) else {
         return;
     };
-    let export = draw(&scene, Some(&baked), &RenderOptions { fold: Fold::Export, ..options(64, 64, 1) }).expect("a GPU");
+    let export =
+        draw(&scene, Some(&baked), &RenderOptions { fold: Fold::Export, ..options(64, 64, 1) }).expect("a GPU");
     let difference = largest_difference(&live, &export);
     assert!(difference < 1e-4, "{difference}");
 }

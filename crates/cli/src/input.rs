@@ -46,7 +46,10 @@ pub(crate) fn kind(path: &Path) -> Result<Kind, Failure> {
         // The reader of the kind that the name promises says it better, with line and column.
         Err(error) => {
             return by_name(path).ok_or_else(|| {
-                Failure::input("the file is no JSON").at(path).because(error).try_to("a *.material.json or *.scene.json file")
+                Failure::input("the file is no JSON")
+                    .at(path)
+                    .because(error)
+                    .try_to("a *.material.json or *.scene.json file")
             });
         }
     }
@@ -105,8 +108,7 @@ fn model(path: &Path) -> Result<Scene, SceneError> {
         notes: model.notes,
         ..Scene::default()
     };
-    scene.camera =
-        model.camera.filter(|camera| camera.check().is_ok()).unwrap_or_else(|| scene.framing_camera());
+    scene.camera = model.camera.filter(|camera| camera.check().is_ok()).unwrap_or_else(|| scene.framing_camera());
     scene.load_images()?;
     Ok(scene)
 }

@@ -18,10 +18,14 @@ use crate::commands::{check, export, first_light, methods, nodes, render};
 ///
 /// Without a command it draws an embedded example and writes the picture and its WGSL to the folder out/.
 #[derive(Parser, Debug)]
-#[command(name = "halfvector", version, after_help = "Example:
+#[command(
+    name = "halfvector",
+    version,
+    after_help = "Example:
   halfvector render examples/surface.material.json --set metallic=1 -o metal.png
 
-Exit codes: 0 done, 1 the input is wrong, 2 the command line is wrong, 3 `check` found something.")]
+Exit codes: 0 done, 1 the input is wrong, 2 the command line is wrong, 3 `check` found something."
+)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,

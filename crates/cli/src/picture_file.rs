@@ -69,7 +69,10 @@ pub(crate) fn write(file: &PictureFile, picture: &Picture, display: Display) -> 
 }
 
 fn encoding_failed(path: &Path, error: &image::ImageError) -> Failure {
-    Failure::input("the picture could not be coded").at(path).because(error).try_to("a smaller --size, or another format")
+    Failure::input("the picture could not be coded")
+        .at(path)
+        .because(error)
+        .try_to("a smaller --size, or another format")
 }
 
 fn png(picture: &Picture, display: Display) -> Result<Vec<u8>, image::ImageError> {
@@ -99,11 +102,7 @@ fn exr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
 fn hdr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
     let mut bytes = Vec::new();
     let pixels: Vec<_> = picture.pixels.iter().map(|&[r, g, b, _]| image::Rgb([r, g, b].map(|c| c.max(0.0)))).collect();
-    image::codecs::hdr::HdrEncoder::new(&mut bytes).encode(
-        &pixels,
-        picture.width as usize,
-        picture.height as usize,
-    )?;
+    image::codecs::hdr::HdrEncoder::new(&mut bytes).encode(&pixels, picture.width as usize, picture.height as usize)?;
     Ok(bytes)
 }
 

@@ -34,8 +34,10 @@ pub(crate) fn set(document: &mut Document, library: &Library, assignment: &Assig
         });
     };
     let value = typed(document, library, &socket, value).map_err(|why| format!("{name}={value}: {why}"))?;
-    let node: &mut Node =
-        document.nodes.get_mut(&socket.node).ok_or_else(|| format!("`{name}` stands for {socket}, which is missing"))?;
+    let node: &mut Node = document
+        .nodes
+        .get_mut(&socket.node)
+        .ok_or_else(|| format!("`{name}` stands for {socket}, which is missing"))?;
     node.values.insert(socket.socket, value);
     Ok(())
 }
@@ -71,7 +73,9 @@ fn typed(document: &Document, library: &Library, socket: &SocketRef, text: &str)
         SocketType::Generic => vector(&numbers(text)?),
         SocketType::Texture => {
             let color_space = match (node.values.get(&socket.socket), &input.default) {
-                (Some(Value::Image(image)), _) => return Ok(Value::Image(ImageRef { file: text.to_owned(), ..image.clone() })),
+                (Some(Value::Image(image)), _) => {
+                    return Ok(Value::Image(ImageRef { file: text.to_owned(), ..image.clone() }));
+                }
                 (_, InputDefault::Image(space)) => *space,
                 _ => ColorSpace::Srgb,
             };

@@ -44,7 +44,8 @@ impl Folder {
     /// Names of the files in the folder, sorted.
     fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.0.path()).expect("the folder");
-        let mut names: Vec<_> = entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        let mut names: Vec<_> =
+            entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
         names.sort();
         names
     }
@@ -156,7 +157,10 @@ fn wrong_input_ends_with_1_and_says_where() {
     folder.write("broken.material.json", "{\"halfvector\": 1,\n  \"nodes\": {");
     folder.write("list.json", "[]");
     folder.write("other.json", "{\"a\": 1}");
-    folder.write("lost.scene.json", r#"{"halfvector": 1, "objects": [{"mesh": "sphere", "material": "gone.material.json"}]}"#);
+    folder.write(
+        "lost.scene.json",
+        r#"{"halfvector": 1, "objects": [{"mesh": "sphere", "material": "gone.material.json"}]}"#,
+    );
     folder.write("wrong.scene.json", r#"{"halfvector": 1, "objects": [{"mesh": "teapot"}]}"#);
     folder.write("bad.glb", "glTF");
     folder.write("bad.hdr", "#?RADIANCE\nnonsense");
@@ -268,7 +272,8 @@ fn export_writes_each_target() {
     ] {
         folder.run(&["export", "plain.material.json", "--target", target, "-o", target]).ends(0);
         let entries = std::fs::read_dir(folder.path(target)).expect("the folder");
-        let mut found: Vec<_> = entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        let mut found: Vec<_> =
+            entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
         found.sort();
         assert_eq!(found, names, "{target}");
     }
@@ -310,8 +315,20 @@ fn render_writes_each_format_and_leaves_nothing_else() {
 fn alpha_is_straight_in_a_png() {
     let folder = Folder::new();
     let arguments = [
-        "render", "plain.material.json", "-o", "a.png", "--size", "16x16", "--env", "white", "--background", "none",
-        "--set", "base_color=1,1,1", "--tone-map", "none",
+        "render",
+        "plain.material.json",
+        "-o",
+        "a.png",
+        "--size",
+        "16x16",
+        "--env",
+        "white",
+        "--background",
+        "none",
+        "--set",
+        "base_color=1,1,1",
+        "--tone-map",
+        "none",
     ];
     let run = folder.run(&arguments);
     if run.lacks_gpu() {

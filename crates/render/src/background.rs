@@ -36,8 +36,12 @@ impl Sky {
         gamma_coded: bool,
     ) -> Sky {
         let device = &gpu.device;
-        let text: String =
-            FILES.iter().filter(|file| PARTS.contains(&file.path)).map(|file| file.source).collect::<Vec<_>>().join("\n");
+        let text: String = FILES
+            .iter()
+            .filter(|file| PARTS.contains(&file.path))
+            .map(|file| file.source)
+            .collect::<Vec<_>>()
+            .join("\n");
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("background"),
             source: wgpu::ShaderSource::Wgsl(text.into()),
@@ -108,8 +112,22 @@ impl Sky {
         let coded = f32::from(self.gamma_coded);
         // The struct of the shader: three vec3f on 16 bytes each, a vec2f, an f32.
         let numbers: [f32; UNIFORM_BYTES / 4] = [
-            right.x, right.y, right.z, 0.0, up.x, up.y, up.z, 0.0, forward.x, forward.y, forward.z, 0.0,
-            self.rotation[0], self.rotation[1], coded, 0.0,
+            right.x,
+            right.y,
+            right.z,
+            0.0,
+            up.x,
+            up.y,
+            up.z,
+            0.0,
+            forward.x,
+            forward.y,
+            forward.z,
+            0.0,
+            self.rotation[0],
+            self.rotation[1],
+            coded,
+            0.0,
         ];
         gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::cast_slice(&numbers));
     }

@@ -1,5 +1,6 @@
 //! A scene made ready for the GPU: shaders, programs, bind groups and the list of draws in order. It draws nothing.
 
+use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
 use halfvector_codegen::reflection::{Binding, Resource, SamplerSource, TextureSource};
@@ -132,13 +133,16 @@ pub(crate) fn prepare(
     for object in &scene.objects {
         let Some(shader) = shaders.get(&object.material) else { continue };
         let program = program_of_material[&object.material];
-        if !draws.meshes.contains_key(&object.mesh) {
-            let Some(buffers) = MeshBuffers::new(gpu, object.mesh, &scene.meshes[object.mesh])? else { continue };
-            draws.meshes.insert(object.mesh, buffers);
-        }
-        let Some(buffers) = draws.meshes.get_mut(&object.mesh) else { continue };
+        let mesh = &scene.meshes[object.mesh];
+        let buffers = match draws.meshes.entry(object.mesh) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => match MeshBuffers::new(gpu, object.mesh, mesh)? {
+                Some(buffers) => place.insert(buffers),
+                None => continue,
+            },
+        };
         for input in &shader.reflection.vertex_inputs {
-            buffers.prepare(gpu, object.mesh, &scene.meshes[object.mesh], &input.name)?;
+            buffers.prepare(gpu, object.mesh, mesh, &input.name)?;
         }
         let depth = (buffers.center_in_world(&object.world_from_object) - view.position).dot(view.forward);
         for raster in passes_of(scene, object) {
@@ -168,7 +172,8 @@ impl Draws {
     pub(crate) fn set_frame(&self, gpu: &Gpu, frame: &Frame<'_>) -> Result<(), RenderError> {
         for (binding, buffer) in self.views.iter().flat_map(|view| &view.blocks) {
             let Resource::Uniform(block) = &binding.resource else { continue };
-            let bytes = block.pack(|source, numbers| frame.fill(source, numbers)).map_err(|error| refused(gpu, error))?;
+            let bytes =
+                block.pack(|source, numbers| frame.fill(source, numbers)).map_err(|error| refused(gpu, error))?;
             gpu.queue.write_buffer(buffer, 0, &bytes);
         }
         Ok(())
@@ -284,10 +289,8 @@ struct Resources<'a> {
 
 impl Resources<'_> {
     fn image(&mut self, material: &SceneMaterial, reference: &ImageRef) -> Result<wgpu::TextureView, RenderError> {
-        let missing = || RenderError::MissingImage {
-            material: material.document.name.clone(),
-            file: reference.file.clone(),
-        };
+        let missing =
+            || RenderError::MissingImage { material: material.document.name.clone(), file: reference.file.clone() };
         let index = self.scene.images.index(&material.directory, reference).ok_or_else(missing)?;
         let key = (index, reference.color_space);
         if let Some(view) = self.images.get(&key) {

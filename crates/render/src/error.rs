@@ -21,7 +21,9 @@ pub enum RenderError {
         why: String,
     },
     /// The driver gave up during the work.
-    #[error("the GPU `{adapter}` stopped while {doing}: {why}; try a smaller --size or fewer --samples, or update its driver")]
+    #[error(
+        "the GPU `{adapter}` stopped while {doing}: {why}; try a smaller --size or fewer --samples, or update its driver"
+    )]
     Lost {
         /// Its name.
         adapter: String,
@@ -39,7 +41,9 @@ pub enum RenderError {
         doing: String,
     },
     /// wgpu refused a command: a mistake of this program.
-    #[error("the GPU `{adapter}` refused a command while {doing}: {why}; this is a mistake of Halfvector, please report it")]
+    #[error(
+        "the GPU `{adapter}` refused a command while {doing}: {why}; this is a mistake of Halfvector, please report it"
+    )]
     Refused {
         /// Its name.
         adapter: String,
@@ -49,7 +53,9 @@ pub enum RenderError {
         why: String,
     },
     /// A target with these properties cannot be drawn to on this device.
-    #[error("the GPU `{adapter}` cannot draw to floating-point pictures; try another driver, such as `mesa-vulkan-drivers`")]
+    #[error(
+        "the GPU `{adapter}` cannot draw to floating-point pictures; try another driver, such as `mesa-vulkan-drivers`"
+    )]
     NoFloatTarget {
         /// Its name.
         adapter: String,
@@ -80,7 +86,9 @@ pub enum RenderError {
         file: String,
     },
     /// A mesh does not fit into the device's buffers.
-    #[error("mesh {mesh} needs a buffer of {bytes} bytes, and the GPU `{adapter}` allows {limit}; split it or reduce it")]
+    #[error(
+        "mesh {mesh} needs a buffer of {bytes} bytes, and the GPU `{adapter}` allows {limit}; split it or reduce it"
+    )]
     MeshTooLarge {
         /// Index in the scene.
         mesh: usize,
@@ -155,7 +163,9 @@ pub enum RenderError {
     #[error("the scene has an environment and no baked one was given; bake it first")]
     NoEnvironment,
     /// The picture asked for is empty or larger than an address space.
-    #[error("a picture of {width} x {height} pixels with {side} x {side} samples each cannot be drawn; choose a smaller size")]
+    #[error(
+        "a picture of {width} x {height} pixels with {side} x {side} samples each cannot be drawn; choose a smaller size"
+    )]
     PictureSize {
         /// Pixels.
         width: u32,

@@ -44,7 +44,13 @@ pub(crate) struct Program {
 
 impl Program {
     /// Compiles a shader for a target format.
-    pub(crate) fn new(gpu: &Gpu, label: &str, wgsl: &str, reflection: &Reflection, target: wgpu::TextureFormat) -> Program {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        label: &str,
+        wgsl: &str,
+        reflection: &Reflection,
+        target: wgpu::TextureFormat,
+    ) -> Program {
         let device = &gpu.device;
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),

@@ -1,10 +1,10 @@
 //! A scene becomes a picture: the whole way on one page.
 
 use halfvector_codegen::Fold;
-use halfvector_graph::needs::ShaderOutput;
-use halfvector_graph::document::AlphaMode;
-use halfvector_ibl::BakedEnvironment;
 use halfvector_codegen::reflection::SamplerSource;
+use halfvector_graph::document::AlphaMode;
+use halfvector_graph::needs::ShaderOutput;
+use halfvector_ibl::BakedEnvironment;
 use halfvector_scene::light::lights_by_kind;
 use halfvector_scene::{Background, Scene};
 

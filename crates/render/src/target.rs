@@ -119,13 +119,17 @@ impl Target {
 
 fn append_samples(format: wgpu::TextureFormat, row: &[u8], samples: &mut Vec<[f32; 4]>) {
     if format == wgpu::TextureFormat::Rgba16Float {
-        samples.extend(row.chunks_exact(8).map(|texel| {
-            std::array::from_fn(|i| half::f16::from_le_bytes([texel[2 * i], texel[2 * i + 1]]).to_f32())
-        }));
+        samples.extend(
+            row.chunks_exact(8).map(|texel| {
+                std::array::from_fn(|i| half::f16::from_le_bytes([texel[2 * i], texel[2 * i + 1]]).to_f32())
+            }),
+        );
     } else {
-        samples.extend(row.chunks_exact(16).map(|texel| {
-            std::array::from_fn(|i| f32::from_le_bytes(std::array::from_fn(|byte| texel[4 * i + byte])))
-        }));
+        samples.extend(
+            row.chunks_exact(16).map(|texel| {
+                std::array::from_fn(|i| f32::from_le_bytes(std::array::from_fn(|byte| texel[4 * i + byte])))
+            }),
+        );
     }
 }
 

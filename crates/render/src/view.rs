@@ -46,14 +46,10 @@ impl View {
     /// Clip from world for a tile of a picture, with depth 1 at the near plane and 0 at infinity. The tile's rectangle
     /// fills the clip square: x and y of the whole picture's clip space are stretched and shifted.
     pub(crate) fn clip_from_world(&self, width: u32, height: u32, tile: Tile) -> Mat4 {
-        let view_from_world = Mat4::from_cols(
-            self.right.extend(0.0),
-            self.up.extend(0.0),
-            (-self.forward).extend(0.0),
-            Vec4::W,
-        )
-        .transpose()
-            * Mat4::from_translation(-self.position);
+        let view_from_world =
+            Mat4::from_cols(self.right.extend(0.0), self.up.extend(0.0), (-self.forward).extend(0.0), Vec4::W)
+                .transpose()
+                * Mat4::from_translation(-self.position);
         let [half_x, half_y] = self.half;
         let clip_from_view = Mat4::from_cols(
             Vec4::new(1.0 / half_x, 0.0, 0.0, 0.0),
@@ -118,10 +114,7 @@ mod tests {
         };
         let pixel = |tile: Tile| {
             let [x, y, _] = project(tile);
-            [
-                tile.x as f32 + (x + 1.0) * 0.5 * tile.width as f32,
-                tile.y as f32 + (1.0 - y) * 0.5 * tile.height as f32,
-            ]
+            [tile.x as f32 + (x + 1.0) * 0.5 * tile.width as f32, tile.y as f32 + (1.0 - y) * 0.5 * tile.height as f32]
         };
         for (a, b) in pixel(whole).iter().zip(pixel(tile)) {
             assert!((a - b).abs() < 1e-4, "{:?} {:?}", pixel(whole), pixel(tile));

@@ -33,8 +33,7 @@ pub(crate) fn run() -> Result<u8, Failure> {
         note(path.display());
     }
     let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
-    let scene =
-        Scene::from_material(document, Path::new(""), &sphere).map_err(|error| broken(error.to_string()))?;
+    let scene = Scene::from_material(document, Path::new(""), &sphere).map_err(|error| broken(error.to_string()))?;
     draw(&scene, [512, 512], 4, &PictureFile { path: folder.join("example.png"), format: PictureFormat::Png })?;
     Ok(0)
 }

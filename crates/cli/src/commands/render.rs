@@ -84,14 +84,20 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     replace_parts(&mut scene, args)?;
     refuse_coded_radiance(&scene.methods, &args.output)?;
     if (args.tone_map.is_some() || args.exposure.is_some()) && is_coded_or_linear(&scene.methods, &args.output) {
-        note("note: --tone-map and --exposure do nothing here: .exr and .hdr hold radiance, encode=report display values");
+        note(
+            "note: --tone-map and --exposure do nothing here: .exr and .hdr hold radiance, encode=report display values",
+        );
     }
     for text in &scene.notes {
         note(format_args!("note: {text}"));
     }
     let side = samples_per_side(args.samples);
     if side * side != args.samples {
-        note(format_args!("note: samples stand on a square grid; {} are taken instead of {}", side * side, args.samples));
+        note(format_args!(
+            "note: samples stand on a square grid; {} are taken instead of {}",
+            side * side,
+            args.samples
+        ));
     }
     draw(&scene, args.size, side, &args.output)?;
     Ok(0)
@@ -99,7 +105,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
 
 /// Draws a scene to a file.
 pub(crate) fn draw(scene: &Scene, size: [u32; 2], side: u32, output: &PictureFile) -> Result<(), Failure> {
-    let failed = |error: halfvector_render::RenderError| Failure::input("the picture could not be drawn").because(error);
+    let failed =
+        |error: halfvector_render::RenderError| Failure::input("the picture could not be drawn").because(error);
     let loaded = load(scene)?;
     let renderer = Renderer::new().map_err(failed)?;
     let environment = loaded.map(|loaded| bake(scene, &loaded));
@@ -235,7 +242,9 @@ fn parse_backend(text: &str) -> Result<Backend, String> {
     match text {
         "auto" => Ok(Backend::Auto),
         "gpu" => Ok(Backend::Gpu),
-        "cpu" | "reference" => Err(format!("the backend `{text}` does not exist yet; auto and gpu do, and both take a software GPU where there is no other")),
+        "cpu" | "reference" => Err(format!(
+            "the backend `{text}` does not exist yet; auto and gpu do, and both take a software GPU where there is no other"
+        )),
         _ => Err("the backends are auto and gpu".to_owned()),
     }
 }
