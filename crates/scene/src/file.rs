@@ -1,5 +1,5 @@
 //! Scene files, `*.scene.json`: which meshes wear which materials, seen from where, in which light. Paths are relative to
-//! the file. The fields stand in the structs below; each quantity has its unit in its name.
+//! the file. The fields stand in `format`; each quantity has its unit in its name.
 //!
 //! ```json
 //! {
@@ -22,21 +22,27 @@
 //! or as `#N`; its lights join the scene's. Without `camera` the model's own is taken, else one that frames it; built-in
 //! shapes have the default camera.
 
-use std::collections::BTreeMap;
+mod format;
+mod lights;
+
 use std::path::Path;
 
 use glam::{EulerRot, Mat4, Quat, Vec3};
 use halfvector_graph::method::Methods;
-use serde::Deserialize;
 
 use crate::camera::Camera;
 use crate::environment::{Background, EnvironmentSource, read_limited};
 use crate::gltf;
-use crate::light::{Light, cone, non_negative_color, spot_effective_solid_angle, unit};
+use crate::light::Light;
 use crate::mesh::BuiltinMesh;
 use crate::parameters::set_parameter;
 use crate::scene::{Exposure, MeshSource, Scene, SceneError, SceneMaterial, neutral_material};
 use crate::tone_map::tone_map_from_name;
+use format::{
+    BackgroundEntry, EnvironmentEntry, ExposureEntry, MaterialEntry, Numbers, ObjectEntry, ScaleEntry, SceneFile,
+    TransformEntry, Version,
+};
+use lights::{finite_all, read_light};
 
 /// The version of the format that this program writes and reads.
 pub const SCENE_VERSION: u32 = 1;
@@ -47,195 +53,7 @@ const MAX_FILE_BYTES: u64 = 16 << 20;
 /// Light of 1 W at 555 nm, where the eye is most sensitive, [lm]: how glTF exporters and Blender take watts to lumens.
 pub const LUMENS_PER_WATT: f32 = 683.0;
 
-#[derive(Deserialize)]
-struct Version {
-    halfvector: Option<serde_json::Value>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SceneFile {
-    #[serde(rename = "halfvector")]
-    _version: u32,
-    #[serde(default)]
-    name: Option<String>,
-    objects: Vec<ObjectEntry>,
-    #[serde(default)]
-    camera: Option<CameraEntry>,
-    #[serde(default)]
-    lights: Vec<LightEntry>,
-    #[serde(default)]
-    environment: Option<EnvironmentEntry>,
-    #[serde(default)]
-    background: Option<BackgroundEntry>,
-    #[serde(default)]
-    exposure: Option<ExposureEntry>,
-    #[serde(default)]
-    tone_map: Option<String>,
-    #[serde(default)]
-    preset: Option<String>,
-    #[serde(default)]
-    methods: BTreeMap<String, String>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ObjectEntry {
-    mesh: String,
-    #[serde(default)]
-    name: Option<String>,
-    /// For all parts.
-    #[serde(default)]
-    material: Option<MaterialEntry>,
-    /// By part: name of the part of a built-in shape; name or `#N` of a model's material.
-    #[serde(default)]
-    materials: BTreeMap<String, MaterialEntry>,
-    #[serde(default)]
-    transform: TransformEntry,
-}
-
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    deny_unknown_fields,
-    expecting = "a material is a path, or {\"file\": path, \"set\": {parameter: number or list}}"
-)]
-enum MaterialEntry {
-    Path(String),
-    WithParameters {
-        file: String,
-        #[serde(default)]
-        set: BTreeMap<String, Numbers>,
-    },
-}
-
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "a value is a number, true or false, or a list of numbers")]
-enum Numbers {
-    Switch(bool),
-    One(f32),
-    Many(Vec<f32>),
-}
-
-/// Scaled, then turned about Y, X and Z in this order, then moved; or a matrix alone.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct TransformEntry {
-    #[serde(default)]
-    translation: Option<[f32; 3]>,
-    /// About X, Y, Z, all fixed in the world: Rz Rx Ry.
-    #[serde(default)]
-    rotation_deg: Option<[f32; 3]>,
-    #[serde(default)]
-    scale: Option<ScaleEntry>,
-    /// By columns, instead of the others.
-    #[serde(default)]
-    matrix: Option<[f32; 16]>,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(untagged, expecting = "a scale is a number or a list of three")]
-enum ScaleEntry {
-    Even(f32),
-    ByAxis([f32; 3]),
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CameraEntry {
-    position: [f32; 3],
-    #[serde(default)]
-    target: [f32; 3],
-    #[serde(default = "up")]
-    up: [f32; 3],
-    #[serde(default = "vertical_fov_deg")]
-    vertical_fov_deg: f32,
-}
-
-fn up() -> [f32; 3] {
-    [0.0, 1.0, 0.0]
-}
-
-fn vertical_fov_deg() -> f32 {
-    30.0
-}
-
-#[derive(Deserialize)]
-#[serde(tag = "type", rename_all = "lowercase", deny_unknown_fields)]
-enum LightEntry {
-    Directional {
-        /// From the surface to the light.
-        direction_to_light: [f32; 3],
-        #[serde(default)]
-        illuminance_lx: Option<f32>,
-        #[serde(default)]
-        irradiance_w_m2: Option<f32>,
-        #[serde(default = "white")]
-        color: [f32; 3],
-    },
-    Point {
-        position: [f32; 3],
-        #[serde(default)]
-        intensity_cd: Option<f32>,
-        #[serde(default)]
-        power_lm: Option<f32>,
-        #[serde(default)]
-        power_w: Option<f32>,
-        #[serde(default = "white")]
-        color: [f32; 3],
-    },
-    Spot {
-        position: [f32; 3],
-        /// The way the light shines.
-        direction: [f32; 3],
-        #[serde(default)]
-        intensity_cd: Option<f32>,
-        #[serde(default)]
-        power_lm: Option<f32>,
-        #[serde(default)]
-        power_w: Option<f32>,
-        #[serde(default)]
-        inner_deg: f32,
-        outer_deg: f32,
-        #[serde(default = "white")]
-        color: [f32; 3],
-    },
-}
-
-fn white() -> [f32; 3] {
-    [1.0; 3]
-}
-
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    deny_unknown_fields,
-    expecting = "an environment is white, studio, sky, none or a file, or {\"source\": one of these, \"rotation_deg\": number}"
-)]
-enum EnvironmentEntry {
-    Source(String),
-    Turned {
-        source: String,
-        #[serde(default)]
-        rotation_deg: f32,
-    },
-}
-
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "a background is \"env\", \"none\" or a list of three numbers")]
-enum BackgroundEntry {
-    Name(String),
-    Color([f32; 3]),
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-enum ExposureEntry {
-    Stops(f32),
-    Ev100(f32),
-}
-
-/// What is wrong in the file, and where: `None` for what another file says.
+/// What is wrong in the file and where, or what another file says.
 enum Wrong {
     Here { place: String, reason: String },
     Elsewhere(SceneError),
@@ -504,73 +322,6 @@ fn moved_light(light: Light, world_from_object: &Mat4) -> Light {
     }
 }
 
-fn read_light(entry: &LightEntry) -> Result<Light, String> {
-    use std::f32::consts::PI;
-    match *entry {
-        LightEntry::Directional { direction_to_light, illuminance_lx, irradiance_w_m2, color } => {
-            let strength = one_of([
-                ("illuminance_lx", illuminance_lx, 1.0),
-                ("irradiance_w_m2", irradiance_w_m2, LUMENS_PER_WATT),
-            ])?;
-            Ok(Light::Directional {
-                direction_to_light: unit(finite_all(direction_to_light)?.into())?,
-                illuminance: colored(color, strength)?,
-            })
-        }
-        LightEntry::Point { position, intensity_cd, power_lm, power_w, color } => {
-            let strength = one_of([
-                ("intensity_cd", intensity_cd, 1.0),
-                ("power_lm", power_lm, 1.0 / (4.0 * PI)),
-                ("power_w", power_w, LUMENS_PER_WATT / (4.0 * PI)),
-            ])?;
-            Ok(Light::Point { position: finite_all(position)?.into(), intensity: colored(color, strength)? })
-        }
-        LightEntry::Spot { position, direction, intensity_cd, power_lm, power_w, inner_deg, outer_deg, color } => {
-            let [inner_angle, outer_angle] = cone(inner_deg, outer_deg)?;
-            let solid_angle = spot_effective_solid_angle(inner_angle, outer_angle);
-            let strength = one_of([
-                ("intensity_cd", intensity_cd, 1.0),
-                ("power_lm", power_lm, 1.0 / solid_angle),
-                ("power_w", power_w, LUMENS_PER_WATT / solid_angle),
-            ])?;
-            Ok(Light::Spot {
-                position: finite_all(position)?.into(),
-                direction: unit(finite_all(direction)?.into())?,
-                intensity: colored(color, strength)?,
-                inner_angle,
-                outer_angle,
-            })
-        }
-    }
-}
-
-/// The one quantity that is given, times its factor.
-fn one_of<const N: usize>(quantities: [(&str, Option<f32>, f32); N]) -> Result<f32, String> {
-    let given: Vec<_> = quantities.iter().filter_map(|&(name, value, factor)| Some((name, value?, factor))).collect();
-    let names = quantities.map(|(name, ..)| name).join(", ");
-    match given[..] {
-        [(name, value, factor)] => {
-            let strength = value * factor;
-            if value >= 0.0 && strength.is_finite() {
-                Ok(strength)
-            } else {
-                Err(format!("{name} must be finite and not negative"))
-            }
-        }
-        [] => Err(format!("how strong is the light? Give one of {names}")),
-        _ => Err(format!("give only one of {names}")),
-    }
-}
-
-fn colored(color: [f32; 3], strength: f32) -> Result<Vec3, String> {
-    let color = non_negative_color(finite_all(color)?.into())? * strength;
-    if color.is_finite() { Ok(color) } else { Err("colour times strength is too large".into()) }
-}
-
 fn finite(x: f32) -> Result<f32, String> {
     if x.is_finite() { Ok(x) } else { Err("the number is too large".into()) }
-}
-
-fn finite_all(v: [f32; 3]) -> Result<[f32; 3], String> {
-    if v.iter().all(|x| x.is_finite()) { Ok(v) } else { Err("a number is too large".into()) }
 }

@@ -146,6 +146,9 @@ mod tests {
         // Neutral keeps a colour whose lowest channel is 0.04 over the toe: 0.08 - 0.04 = 0.04.
         let [r, g, b] = tone_map_pbr_neutral([0.5, 0.3, 0.08]);
         assert!((r - 0.46).abs() < 1e-12 && (g - 0.26).abs() < 1e-12 && (b - 0.04).abs() < 1e-12);
+        // Below that the toe is x - 6.25 x^2: 0.04 - 0.01 = 0.03.
+        let [r, _, b] = tone_map_pbr_neutral([0.5, 0.3, 0.04]);
+        assert!((r - 0.47).abs() < 1e-12 && (b - 0.01).abs() < 1e-12);
         // It is continuous where the compression starts, at a peak of 0.8.
         let [below, ..] = tone_map_pbr_neutral([0.8 - 1e-9, 0.2, 0.1]);
         let [above, ..] = tone_map_pbr_neutral([0.8 + 1e-9, 0.2, 0.1]);

@@ -181,8 +181,7 @@ impl Builder<'_> {
             self.scaled("specular", map.as_deref().map(|m| (m, "alpha")), Value::Number(weight), "specular_factor");
         }
         if specular.specular_color_factor.0 != [1.0; 3] || specular.specular_color_texture.is_some() {
-            let name = &self.document.name;
-            self.notes.push(format!("material `{name}`: the specular colour is passed over"));
+            self.notes.push("specular colours (KHR_materials_specular) are passed over".to_owned());
         }
         Ok(())
     }

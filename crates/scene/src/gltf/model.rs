@@ -1,6 +1,6 @@
 //! The scene graph: nodes, meshes, lights and cameras of a glTF file in world space.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use glam::{Mat3, Mat4, Quat, Vec3};
@@ -73,6 +73,8 @@ fn build(asset: &Asset) -> Result<Model> {
     let bounds = in_world.reduce(Bounds::union);
     model.camera = camera(asset, &instances, bounds);
     model.note_what_is_passed_over(asset);
+    let mut said = HashSet::new();
+    model.notes.retain(|note| said.insert(note.clone()));
     Ok(model)
 }
 
@@ -171,7 +173,7 @@ impl Model {
         self.lights.push(read_light(light, world_from_node).map_err(|reason| Fault::new(&place, reason))?);
         if light.range.is_some() {
             self.notes
-                .push(format!("{place}: the range is passed over; light falls off by the square of the distance"));
+                .push("the range of lights is passed over; light falls off by the square of the distance".to_owned());
         }
         Ok(())
     }

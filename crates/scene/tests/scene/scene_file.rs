@@ -6,7 +6,10 @@ use std::path::Path;
 use glam::Vec3;
 use halfvector_graph::needs::{ShaderOutput, ToneMap};
 use halfvector_graph::value::Value;
-use halfvector_scene::{Background, Camera, EnvironmentSource, Exposure, Light, Scene, SceneError, load_scene, needs};
+use halfvector_scene::{
+    Background, BuiltinMesh, Camera, EnvironmentSource, Exposure, Light, MeshSource, Scene, SceneError, load_scene,
+    needs,
+};
 
 use crate::support::{Builder, add};
 
@@ -262,4 +265,41 @@ fn images_are_found_shared_and_missed_by_name() {
     std::fs::write(&path, material("maps/a.png", "model.glb#0")).unwrap();
     let error = load_text(folder.path(), &with_sphere("")).unwrap_err().to_string();
     assert!(error.contains("images[0]") && error.contains("model.glb"), "{error}");
+}
+
+#[test]
+fn a_bare_material_is_seen_on_any_mesh() {
+    let folder = folder();
+    let document = halfvector_graph::file::from_json(MATERIAL).unwrap();
+    let scene = |mesh: &str| {
+        let mesh = MeshSource::parse(mesh, folder.path()).unwrap();
+        Scene::from_material(document.clone(), folder.path(), &mesh).unwrap()
+    };
+    let sphere = scene("sphere");
+    assert_eq!((sphere.camera, sphere.objects.len(), sphere.materials.len()), (Camera::default(), 1, 1));
+    assert_eq!(sphere.environment, EnvironmentSource::Studio);
+    assert!(sphere.lights.is_empty());
+    assert_eq!(sphere.bounds().unwrap().radius(), 3f32.sqrt());
+    // The default camera has every shape in view.
+    let slope = (0.5 * Camera::default().vertical_fov).to_radians().tan();
+    for shape in BuiltinMesh::ALL {
+        for object in scene(shape.name()).objects {
+            let mesh = &shape.parts().into_iter().find(|p| p.name == object.name).unwrap().mesh;
+            for position in &mesh.positions {
+                let p = object.world_from_object.transform_point3(Vec3::from(*position));
+                assert!(p.x.abs().max(p.y.abs()) < (5.0 - p.z) * slope, "{shape:?} leaves the picture at {p}");
+            }
+        }
+    }
+    // All of a model wears the material, and the camera frames it.
+    let mut model = scene("model.glb");
+    assert_eq!((model.materials.len(), model.objects[0].material), (1, 0));
+    assert_eq!(model.camera, Camera::framing(model.bounds().unwrap()));
+    // Another mesh takes the first one's place.
+    model.set_mesh(&MeshSource::Builtin(BuiltinMesh::Shaderball)).unwrap();
+    model.set_mesh(&MeshSource::Builtin(BuiltinMesh::Shaderball)).unwrap();
+    let names: Vec<_> = model.materials.iter().map(|m| m.document.name.as_str()).collect();
+    assert_eq!(names, ["Plain", "Neutral grey"]);
+    assert_eq!((model.meshes.len(), model.camera), (3, Camera::default()));
+    assert!(MeshSource::parse("ball", folder.path()).unwrap_err().contains("shaderball, or a .glb"));
 }
