@@ -139,7 +139,8 @@ fn declarations(shader: &Shader) -> Vec<usize> {
             inside = structs.iter().any(|s| name.split([' ', '{']).next() == Some(s));
         } else if line.starts_with('}') {
             inside = false;
-        } else if (inside && line.contains(':') && !line.trim_start().starts_with("//")) || line.starts_with("@group(") {
+        } else if (inside && line.contains(':') && !line.trim_start().starts_with("//")) || line.starts_with("@group(")
+        {
             lines.push(number);
         }
     }
@@ -162,9 +163,10 @@ fn goldens_hold_only_what_is_needed() {
 #[test]
 fn goldens_pass_the_judges() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    for (judge, suffixes, arguments) in
-        [("glslangValidator", [".vert", ".frag"], &[][..]), ("spirv-val", [".vert.spv", ".frag.spv"], &["--target-env", "vulkan1.1"][..])]
-    {
+    for (judge, suffixes, arguments) in [
+        ("glslangValidator", [".vert", ".frag"], &[][..]),
+        ("spirv-val", [".vert.spv", ".frag.spv"], &["--target-env", "vulkan1.1"][..]),
+    ] {
         if Command::new(judge).arg("--version").output().is_err() {
             assert!(!required("HALFVECTOR_REQUIRE_JUDGES"), "{judge} is not installed");
             println!("skipped: {judge} is not installed");

@@ -50,12 +50,14 @@ const CASES: &[Case] = &[
         white: Some((0.01, 0.01)),
         hdr: Some((0.10, 0.04)),
     },
-    // The reference has the exact conductor of eta = (1.65746, 0.880369, 0.521229), k = (9.223869, 6.269523, 4.837001);
-    // f0 is its reflectance at normal incidence.
+    // The reference has the exact conductor of eta = (1.65746, 0.880369, 0.521229), k = (9.223869, 6.269523, 4.837001),
+    // which dips before it rises to 1 at grazing incidence; Schlick's form cannot. The base colour is the one whose
+    // Schlick reflectance has the conductor's cosine-weighted mean F: f0 = (21 F - 1) / 20. With the reflectance at normal
+    // incidence, (0.928, 0.918, 0.919), the picture in white is 1.2 % off, 0.8 % of it bias.
     Case {
         name: "conductor_aluminium_r050",
         parameters: &[
-            ("base_color", &[0.928_047, 0.917_805, 0.918_909]),
+            ("base_color", &[0.912_013, 0.903_374, 0.907_604]),
             ("metallic", &[1.0]),
             ("perceptual_roughness", &[0.5]),
         ],

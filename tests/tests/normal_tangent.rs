@@ -56,7 +56,9 @@ fn angles(normals: &[Option<Vec3>]) -> (f64, f64, f64) {
             for j in 6..steps - 6 {
                 let x = left + EDGE * (i as f32 + 0.5) / steps as f32;
                 let y = low + EDGE * (j as f32 + 0.5) / steps as f32;
-                let (Some(relief), Some(quad)) = (pixel(x, y), pixel(x + OFFSET, y)) else { panic!("nothing at {x} {y}") };
+                let (Some(relief), Some(quad)) = (pixel(x, y), pixel(x + OFFSET, y)) else {
+                    panic!("nothing at {x} {y}")
+                };
                 let angle = f64::from(relief.dot(quad).clamp(-1.0, 1.0).acos().to_degrees());
                 sum += angle;
                 largest = largest.max(angle);

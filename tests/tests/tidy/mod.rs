@@ -2,8 +2,8 @@
 
 mod arrows;
 mod rust_sources;
-mod wgsl_names;
 mod uniformity;
+mod wgsl_names;
 
 use std::path::{Path, PathBuf};
 

@@ -20,8 +20,7 @@ fn library() -> (String, Module) {
 fn is_implicit(expression: &Expression) -> bool {
     matches!(
         expression,
-        Expression::Derivative { .. }
-            | Expression::ImageSample { level: SampleLevel::Auto | SampleLevel::Bias(_), .. }
+        Expression::Derivative { .. } | Expression::ImageSample { level: SampleLevel::Auto | SampleLevel::Bias(_), .. }
     )
 }
 

@@ -1,0 +1,319 @@
+// Four maps, made by Halfvector
+// serves: an environment; returns linear radiance, Rec. 709
+// methods: compensation=turquin, dfg=table, prefilter=ggx, level_map=linear, irradiance=cube
+// left out: emission: it is 0
+// left out: occlusion: it is 1
+// left out: opacity: the material is opaque
+// left out: displacement: height is 0
+
+struct View {
+    clip_from_world: mat4x4f,
+    camera_position: vec3f,
+    environment_levels: f32,
+}
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(2) var prefiltered_radiance: texture_cube<f32>;
+@group(0) @binding(3) var irradiance_over_pi: texture_cube<f32>;
+@group(0) @binding(4) var dfg_table: texture_2d<f32>;
+@group(0) @binding(5) var linear_clamp: sampler;
+@group(1) @binding(0) var albedo_texture: texture_2d<f32>;
+@group(1) @binding(1) var metalness_texture: texture_2d<f32>;
+@group(1) @binding(2) var roughness_texture: texture_2d<f32>;
+@group(1) @binding(3) var normal_texture: texture_2d<f32>;
+@group(1) @binding(4) var linear_repeat: sampler;
+struct Object {
+    world_from_object: mat4x4f,
+    normal_from_object: mat3x3f,
+}
+@group(2) @binding(0) var<uniform> object: Object;
+
+struct VertexInput {
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
+    @location(3) uv0: vec2f,
+}
+struct Varyings {
+    @builtin(position) clip_position: vec4f,
+    @location(0) world_position: vec3f,
+    @location(1) world_normal: vec3f,
+    @location(2) world_tangent: vec4f,
+    @location(3) uv0: vec2f,
+}
+
+@vertex
+fn vs_main(in: VertexInput) -> Varyings {
+    let world_position = position_in_world(object.world_from_object, in.position);
+    let world_normal = normal_in_world(object.normal_from_object, in.normal);
+    let world_tangent = tangent_in_world(object.world_from_object, in.tangent);
+    var out: Varyings;
+    out.clip_position = view.clip_from_world * vec4f(world_position, 1.0);
+    out.world_position = world_position;
+    out.world_normal = world_normal;
+    out.world_tangent = world_tangent;
+    out.uv0 = in.uv0;
+    return out;
+}
+
+@fragment
+fn fs_main(in: Varyings) -> @location(0) vec4f {
+    let world_normal = normalize_or(in.world_normal, vec3f(0.0, 0.0, 1.0));
+    let view_dir = normalize(view.camera_position - in.world_position);
+    let albedo = node_textures_image(albedo_texture, linear_repeat, in.uv0); // Albedo
+    let metalness = node_textures_image(metalness_texture, linear_repeat, in.uv0); // Metalness
+    let roughness = node_textures_image(roughness_texture, linear_repeat, in.uv0); // Roughness
+    let normal_2 = node_textures_image(normal_texture, linear_repeat, in.uv0); // Normal
+    let normal_map = node_textures_normal_map(normal_2.color, 1.0, false, world_normal, in.world_tangent); // Normal map
+    let diffuse_albedo = albedo.color * (1.0 - metalness.r);
+    let f0 = f0_from_metallic(albedo.color, metalness.r, 0.040000003);
+    let frame = frame_from_normal(normal_map, view_dir);
+    let diffuse = Diffuse(diffuse_albedo, roughness.r);
+    let specular = Specular(f0, vec3f(1.0), alpha_from_perceptual_roughness(roughness.r));
+    let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, roughness.r);
+    let compensation = energy_compensation(specular.f0, dfg);
+    let reflection_dir = reflect(-frame.view_dir, frame.normal);
+    let irradiance = environment_sample(irradiance_over_pi, linear_clamp, frame.normal, 0.0);
+    var radiance = diffuse_environment(diffuse, irradiance);
+    let reflection_lod = lod_linear(roughness.r, view.environment_levels);
+    let reflection = environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
+    radiance += specular_environment(specular, reflection, dfg) * compensation;
+    return vec4f(radiance, 1.0);
+}
+
+// ---- brdf/dfg.wgsl
+
+/// Karis 2013, Real Shading in Unreal Engine 4: the share of uniform light that the specular lobe reflects to the
+/// viewer, f0 a + f90 b with dfg = (a, b).
+fn specular_albedo(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
+    return f0 * dfg.x + f90 * dfg.y;
+}
+
+// ---- brdf/frame.wgsl
+
+// Smallest n.v: below the library's domain of cosines, which starts at 1e-6. A shading normal may face away from the
+// viewer (n.v < 0), where no BRDF is defined: such a point is shaded as seen at grazing incidence.
+const N_DOT_V_FLOOR: f32 = 1e-7;
+
+/// A shading normal and the viewer.
+struct Frame {
+    /// Shading normal in world space, unit.
+    normal: vec3f,
+    /// From the surface to the viewer in world space, unit.
+    view_dir: vec3f,
+    /// n.v in [1e-7, 1].
+    n_dot_v: f32,
+}
+
+/// The frame of a unit shading normal and a unit direction to the viewer, with n.v held in [N_DOT_V_FLOOR, 1].
+///
+/// NaN in either gives n_dot_v = N_DOT_V_FLOOR.
+fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
+    let n_dot_v = dot(normal, view_dir);
+    return Frame(normal, view_dir, select(N_DOT_V_FLOOR, min(n_dot_v, 1.0), n_dot_v > N_DOT_V_FLOOR));
+}
+
+// ---- brdf/ggx.wgsl
+
+/// alpha = perceptual_roughness^2. Burley 2012, Physically-Based Shading at Disney.
+///
+/// Held in [0, 1]; NaN gives 1.
+fn alpha_from_perceptual_roughness(perceptual_roughness: f32) -> f32 {
+    let r = select(1.0, max(perceptual_roughness, 0.0), perceptual_roughness < 1.0);
+    return r * r;
+}
+
+// ---- brdf/lobe_diffuse.wgsl
+
+/// Parameters of the diffuse lobe.
+struct Diffuse {
+    /// Albedo, linear Rec. 709.
+    color: vec3f,
+    /// Artist's roughness in [0, 1].
+    perceptual_roughness: f32,
+}
+
+/// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.
+fn diffuse_environment(p: Diffuse, irradiance_over_pi: vec3f) -> vec3f {
+    return finite_or_zero(p.color * irradiance_over_pi);
+}
+
+// ---- brdf/lobe_specular.wgsl
+
+/// Parameters of the specular lobe.
+struct Specular {
+    /// Reflectance at normal incidence.
+    f0: vec3f,
+    /// Reflectance at grazing incidence.
+    f90: vec3f,
+    /// Square of the perceptual roughness.
+    alpha: f32,
+}
+
+/// Karis 2013, Real Shading in Unreal Engine 4, the split sum: prefiltered radiance of the mirror direction times the
+/// lobe's directional albedo.
+fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
+    return finite_or_zero(prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg));
+}
+
+// ---- brdf/metallic_roughness.wgsl
+
+/// Reflectance at normal incidence: dielectric_f0 (1 - metallic) + base_color metallic.
+fn f0_from_metallic(base_color: vec3f, metallic: f32, dielectric_f0: f32) -> vec3f {
+    return vec3f(dielectric_f0 * (1.0 - metallic)) + base_color * metallic;
+}
+
+// ---- brdf/multiscatter.wgsl
+
+// Smallest albedo divided by. GGX's smallest is 1 - ln 2 = 0.307 (alpha 1, n.v 1); only an empty table is below this.
+const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
+
+/// Turquin 2019, Practical Multiple Scattering Compensation for Microfacet Models: the factor 1 + f0 (1/E - 1) on the
+/// single-scattering lobe, E = a + b the directional albedo of a white one.
+fn energy_compensation(f0: vec3f, dfg: vec2f) -> vec3f {
+    let directional_albedo = max(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR);
+    return 1.0 + f0 * (1.0 / directional_albedo - 1.0);
+}
+
+// ---- entry/transform.wgsl
+
+/// A point of the object in world space: M p.
+fn position_in_world(world_from_object: mat4x4f, position: vec3f) -> vec3f {
+    return (world_from_object * vec4f(position, 1.0)).xyz;
+}
+
+/// A normal of the object in world space, unit. `normal_from_object` is |det M| (M^-1)^T of the upper 3x3 M, which exists
+/// for flat transforms too. A vertex without a normal gives zero, which the interpolation then ignores.
+fn normal_in_world(normal_from_object: mat3x3f, normal: vec3f) -> vec3f {
+    return normalize_or(normal_from_object * normal, vec3f(0.0));
+}
+
+/// A tangent of the object in world space, unit, with the handedness in w: a tangent lies in the surface, so M carries it.
+/// A transform that mirrors (det M < 0) turns cross(N, T) over, and so the handedness.
+fn tangent_in_world(world_from_object: mat4x4f, tangent: vec4f) -> vec4f {
+    let m = mat3x3f(world_from_object[0].xyz, world_from_object[1].xyz, world_from_object[2].xyz);
+    let handedness = select(tangent.w, -tangent.w, determinant(m) < 0.0);
+    return vec4f(normalize_or(m * tangent.xyz, vec3f(0.0)), handedness);
+}
+
+// ---- ibl/environment.wgsl
+
+/// Level that holds a perceptual roughness when level i of n is prefiltered for i / (n - 1).
+fn lod_linear(perceptual_roughness: f32, levels: f32) -> f32 {
+    return perceptual_roughness * (levels - 1.0);
+}
+
+/// Radiance that arrives from a direction, prefiltered as much as the level says; mixed linearly between levels.
+/// `dir` need not be unit. An explicit level, so it may stand under control flow and in any stage.
+fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f, lod: f32) -> vec3f {
+    return textureSampleLevel(cube, cube_sampler, dir, lod).rgb;
+}
+
+/// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
+/// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
+/// along x for sqrt(n_dot_v) and along y for the perceptual roughness: both ends of each range are texels, and grazing
+/// angles, where the albedo changes within n_dot_v of about alpha, have the most of them.
+fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
+    let size = vec2f(textureDimensions(table));
+    let place = vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness));
+    let uv = (place * (size - 1.0) + 0.5) / size;
+    return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
+}
+
+// ---- maps/normal.wgsl
+
+/// The tangent-space unit normal that a texel says: t = 2 c - 1, x and y scaled by `strength`, y turned over by
+/// `flip_y`. A texel that says nothing, such as (.5, .5, .5), is straight up. Read as unorm: 8-bit (128, 128, 255) leans
+/// by 0.32 degrees.
+fn normal_from_texel(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
+    let t = 2.0 * color - 1.0;
+    let y = select(t.y, -t.y, flip_y);
+    return normalize_or(vec3f(t.x * strength, y * strength, t.z), vec3f(0.0, 0.0, 1.0));
+}
+
+/// A unit tangent of any unit normal, without a pole. Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin 2017,
+/// "Building an Orthonormal Basis, Revisited": with s = +-1, the sign of n.z,
+///   a = -1 / (s + n.z),  T = (1 + s n.x^2 a, s n.x n.y a, -s n.x),  and B = cross(n, T).
+fn tangent_from_normal(normal: vec3f) -> vec3f {
+    let s = f32(select(-1.0, 1.0, normal.z >= 0.0));
+    let a = -1.0 / (s + normal.z);
+    return vec3f(1.0 + s * normal.x * normal.x * a, s * normal.x * normal.y * a, -s * normal.x);
+}
+
+/// Normal mapping by tangent frame. Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited": with N and T as they
+/// come interpolated, not made orthonormal again, and w the handedness (+-1 in `tangent.w`),
+///   B = w cross(N, T),   n = normalize(t.x T + t.y B + t.z N)
+/// A tangent that is zero or along N is replaced by a tangent of N alone (`tangent_from_normal`); a zero normal is +Z.
+fn normal_tbn(n_tangent: vec3f, normal: vec3f, tangent: vec4f) -> vec3f {
+    let unit_normal = normalize_or(normal, vec3f(0.0, 0.0, 1.0));
+    let across = cross(normal, tangent.xyz);
+    // |N x T| <= 1e-6 |N| |T|: the direction of B would be rounding noise, or 0 / 0.
+    let usable = dot(across, across) > 1e-12 * dot(normal, normal) * dot(tangent.xyz, tangent.xyz);
+    let fallback = tangent_from_normal(unit_normal);
+    let t = select(fallback, tangent.xyz, usable);
+    let b = select(cross(unit_normal, fallback), select(across, -across, tangent.w < 0.0), usable);
+    let n = select(unit_normal, normal, usable);
+    return normalize_or(n_tangent.x * t + n_tangent.y * b + n_tangent.z * n, unit_normal);
+}
+
+// ---- math.wgsl
+
+// Shortest squared length that is still divided by: below it lie the denormal numbers, which a GPU may flush to 0.
+const LENGTH2_FLOOR: f32 = 1e-37;
+
+// Longest squared length that is still divided by: above it the sum of squares overflows to infinity.
+const LENGTH2_CEILING: f32 = 1e37;
+
+// Every number of the library's domain is smaller; f32 ends at 3.4e38.
+const FINITE_CEILING: f32 = 3e38;
+
+/// v / |v|, or `fallback` where v has no direction: zero, NaN, infinite, or of a length outside 3e-19 .. 3e18.
+///
+/// `fallback` is returned as it is. A comparison with NaN is false, so NaN takes the fallback too; `max` would not do,
+/// WGSL leaves its result for NaN open.
+fn normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
+    let length2 = dot(v, v);
+    let has_direction = (length2 > LENGTH2_FLOOR) & (length2 < LENGTH2_CEILING);
+    return select(fallback, v * inverseSqrt(length2), has_direction);
+}
+
+/// The colour with each channel that is NaN or infinite set to 0.
+///
+/// The last line of every lobe, so that one bad texel stays one dark pixel and does not spread through a filter.
+fn finite_or_zero(c: vec3f) -> vec3f {
+    return select(vec3f(0.0), c, abs(c) < vec3f(FINITE_CEILING));
+}
+
+// ---- nodes/textures/image.wgsl
+
+/// The outputs of the node textures/image.
+struct ImageOutputs {
+    /// red, green and blue; linear
+    color: vec3f,
+    /// coverage; 1 for an image without it
+    alpha: f32,
+    /// red channel
+    r: f32,
+    /// green channel
+    g: f32,
+    /// blue channel
+    b: f32,
+}
+
+/// Image
+///
+/// Reads a picture, with mip levels. Mark colours as sRGB, and everything else (roughness, normals, heights) as linear.
+fn node_textures_image(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> ImageOutputs {
+    let texel = textureSample(image, image_sampler, uv);
+    return ImageOutputs(texel.rgb, texel.a, texel.r, texel.g, texel.b);
+}
+
+// ---- nodes/textures/normal_map.wgsl
+
+/// Normal Map
+///
+/// The surface's normal bent by a colour of a normal map (read it as linear): t = 2 c - 1 in the tangent frame.
+/// Maps are +Y (OpenGL); a -Y (DirectX) map wants the switch. The scene's `normal` method may choose one of the report's
+/// rotations instead of the tangent frame.
+fn node_textures_normal_map(color: vec3f, strength: f32, flip_y: bool, normal: vec3f, tangent: vec4f) -> vec3f {
+    return normal_tbn(normal_from_texel(color, strength, flip_y), normal, tangent);
+}
