@@ -1,10 +1,12 @@
 //! What commands read: materials, scenes and models, told apart by their content, checked before work begins.
 
 use std::ffi::OsStr;
+use std::io::Read;
 use std::path::Path;
 
 use halfvector_graph::check::{Problem, Severity};
 use halfvector_graph::document::Document;
+use halfvector_graph::file::MAX_BYTES;
 use halfvector_graph::library::Library;
 use halfvector_scene::{BuiltinMesh, MeshSource, Scene, SceneError};
 
@@ -27,10 +29,10 @@ pub(crate) fn kind(path: &Path) -> Result<Kind, Failure> {
     if matches!(extension.as_deref(), Some("glb" | "gltf")) {
         return Ok(Kind::Model);
     }
-    let bytes = std::fs::read(path).map_err(|error| {
+    let bytes = read(path).map_err(|why| {
         Failure::input("the file could not be read")
             .at(path)
-            .because(error)
+            .because(why)
             .try_to("a *.material.json or *.scene.json file; examples/ has some")
     })?;
     match serde_json::from_slice::<serde_json::Value>(&bytes) {
@@ -59,6 +61,17 @@ pub(crate) fn kind(path: &Path) -> Result<Kind, Failure> {
             .because("it has neither `nodes`, as materials have, nor `mesh` or `objects`, as scenes have")
             .try_to("a *.material.json or *.scene.json file; examples/ has some")
     })
+}
+
+/// The bytes of a file that is no larger than documents may be.
+fn read(path: &Path) -> Result<Vec<u8>, String> {
+    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
+    let mut bytes = Vec::new();
+    file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+    if bytes.len() > MAX_BYTES {
+        return Err(format!("it is larger than {} MiB, too large for a document", MAX_BYTES >> 20));
+    }
+    Ok(bytes)
 }
 
 fn by_name(path: &Path) -> Option<Kind> {

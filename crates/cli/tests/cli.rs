@@ -180,6 +180,8 @@ fn wrong_input_ends_with_1_and_says_where() {
         ("bad.glb", "bad.glb"),
         ("unknown.material.json", "metallic"),
         ("empty.material.json", "surface"),
+        #[cfg(target_os = "linux")]
+        ("/dev/zero", "too large"),
         (".", "could not be read"),
     ] {
         let run = folder.run(&["render", input, "-o", "a.png"]).ends(1).says(words).says("error: ");

@@ -83,6 +83,8 @@ impl Renderer {
             return Err(wrong_size());
         }
         let edge = options.tile_edge.min(TILE_EDGE).min(gpu.device.limits().max_texture_dimension_2d) / side;
+        // Tiles begin at even samples, so that the 2 x 2 blocks that derivatives come from are the same ones in any tile.
+        let edge = if edge > 1 { edge - edge % 2 } else { edge };
         let tiles = if edge == 0 { return Err(wrong_size()) } else { tiles(width, height, edge) };
 
         let needs = halfvector_scene::needs(scene, ShaderOutput::Radiance);
