@@ -211,10 +211,9 @@ impl Index {
 
     /// A function as naga reads it, for folding; `None` when naga does not take it by itself. Kept for the next time.
     pub(crate) fn compiled(&self, instance: Instance) -> Option<Arc<Compiled>> {
-        if let Ok(cache) = self.compiled.lock()
-            && let Some(known) = cache.get(&instance)
-        {
-            return known.clone();
+        let known = self.compiled.lock().ok().and_then(|cache| cache.get(&instance).cloned());
+        if let Some(known) = known {
+            return known;
         }
         let compiled = self.compile(instance).map(Arc::new);
         if let Ok(mut cache) = self.compiled.lock() {

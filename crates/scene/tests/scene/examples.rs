@@ -109,7 +109,9 @@ fn the_reports_scenes_say_what_the_report_says() {
 fn an_absent_model_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("flight-helmet.scene.json");
-    std::fs::copy(examples().join("flight-helmet.scene.json"), &path).unwrap();
+    for name in ["flight-helmet.scene.json", "flight-helmet-leather.material.json"] {
+        std::fs::copy(examples().join(name), folder.path().join(name)).unwrap();
+    }
     let error = load_scene(&path).unwrap_err().to_string();
     assert!(error.contains("FlightHelmet.gltf could not be read"), "{error}");
 }
