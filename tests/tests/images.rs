@@ -56,11 +56,7 @@ const CASES: &[Case] = &[
     // whose picture is 1.2 % off, 0.8 % of it bias, and the one of equal cosine-weighted mean, (0.912, 0.903, 0.908).
     Case {
         name: "conductor_aluminium_r050",
-        parameters: &[
-            ("base_color", &[0.920, 0.911, 0.913]),
-            ("metallic", &[1.0]),
-            ("perceptual_roughness", &[0.5]),
-        ],
+        parameters: &[("base_color", &[0.920, 0.911, 0.913]), ("metallic", &[1.0]), ("perceptual_roughness", &[0.5])],
         methods: SINGLE_SCATTERING,
         white: Some((0.01, 0.01)),
         hdr: Some((0.10, 0.04)),

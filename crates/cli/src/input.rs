@@ -105,25 +105,8 @@ pub(crate) fn folder(path: &Path) -> &Path {
 
 /// Reads a scene file, or a model as a scene.
 pub(crate) fn load_scene(path: &Path) -> Result<Scene, Failure> {
-    let scene = if kind(path)? == Kind::Model { model(path) } else { halfvector_scene::load_scene(path) };
+    let scene = if kind(path)? == Kind::Model { Scene::from_model(path) } else { halfvector_scene::load_scene(path) };
     scene.map_err(|error| wrong_scene(path, &error))
-}
-
-/// A model with its own materials, lights and camera, or one that frames it.
-fn model(path: &Path) -> Result<Scene, SceneError> {
-    let model = halfvector_scene::gltf::load(path)?;
-    let mut scene = Scene {
-        name: path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
-        meshes: model.meshes,
-        materials: model.materials,
-        objects: model.objects,
-        lights: model.lights,
-        notes: model.notes,
-        ..Scene::default()
-    };
-    scene.camera = model.camera.filter(|camera| camera.check().is_ok()).unwrap_or_else(|| scene.framing_camera());
-    scene.load_images()?;
-    Ok(scene)
 }
 
 fn wrong_scene(path: &Path, error: &SceneError) -> Failure {

@@ -211,7 +211,7 @@ impl Scene {
             notes: model.notes,
             ..Scene::default()
         };
-        scene.camera = model.camera.unwrap_or_else(|| scene.framing_camera());
+        scene.camera = model.camera.filter(|camera| camera.check().is_ok()).unwrap_or_else(|| scene.framing_camera());
         scene.load_images()?;
         Ok(scene)
     }

@@ -20,7 +20,7 @@ use crate::output::{note, print, print_json};
 #[command(after_help = "Example:
   halfvector check examples/*.material.json --format json
 
-Exit code 3 when there is a problem, 1 when a file cannot be read.")]
+Exit code 3 when there is an error, 1 when a file cannot be read, 0 when there are only warnings or nothing.")]
 pub(crate) struct CheckArgs {
     /// Materials (*.material.json) or scenes (*.scene.json), whose materials are checked
     #[arg(value_name = "DOC", required = true)]
@@ -70,10 +70,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
         }
         Format::Json => print_json(&json!({ "problems": found.iter().map(as_json).collect::<Vec<_>>() }))?,
     }
-    Ok(match (unreadable, found.is_empty()) {
+    let has_error = found.iter().any(|f| f.problem.severity == Severity::Error);
+    Ok(match (unreadable, has_error) {
         (true, _) => WRONG_INPUT,
-        (false, false) => FOUND,
-        (false, true) => 0,
+        (false, true) => FOUND,
+        (false, false) => 0,
     })
 }
 
