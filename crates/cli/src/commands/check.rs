@@ -58,7 +58,10 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
             Err(failure) => {
                 unreadable = true;
                 note(&failure);
-                found.push(Found { file: path.clone(), problem: of_document(failure.to_string()) });
+                // As text the failure has been told; the JSON object holds everything.
+                if args.format == Format::Json {
+                    found.push(Found { file: path.clone(), problem: of_document(failure.to_string()) });
+                }
             }
         }
     }

@@ -64,7 +64,7 @@ fn unknown_definition(checker: &mut Checker, id: &str, node: &Node, search: bool
     };
     let remedy = match likely {
         Some(likely) => format!("did you mean `{likely}`?"),
-        None => "`halfvector nodes` lists those that there are".into(),
+        None => "`halfvector nodes` lists those that there are.".into(),
     };
     checker.wrong(
         id,
