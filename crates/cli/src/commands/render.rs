@@ -171,6 +171,9 @@ fn set_parameters(scene: &mut Scene, assignments: &[Assignment], path: &Path) ->
     if !assignments.is_empty() {
         for material in &scene.materials {
             input::refuse_errors(path, &material.document)?;
+            // An opaque material would swallow `--set opacity=0.5` without a word.
+            let problems = halfvector_graph::check::check(&material.document, Library::standard());
+            problems.iter().filter(|problem| problem.socket.as_deref() == Some("opacity")).for_each(note);
         }
         scene.load_images().map_err(|error| Failure::input("an image could not be loaded").at(path).because(error))?;
     }
