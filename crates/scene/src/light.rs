@@ -161,7 +161,7 @@ pub const LIGHT_SYNTAX: &str = "\
 directional:X,Y,Z:LUX[:R,G,B]                          X,Y,Z points FROM the surface TO the light (0,1,0 = from above)
 point:X,Y,Z:CANDELA[:R,G,B]                            X,Y,Z is where the light is, in metres
 spot:X,Y,Z:DX,DY,DZ:CANDELA:INNER:OUTER[:R,G,B]        DX,DY,DZ is the way the light SHINES (0,-1,0 = downwards);
-                                                       INNER and OUTER are degrees from the axis, 0 <= INNER <= OUTER <= 90
+                                                       INNER and OUTER are degrees from the axis, 0 <= INNER <= OUTER <= 90, 0 < OUTER
 R,G,B is a linear Rec. 709 colour that multiplies the intensity; 1,1,1 when left out.";
 
 /// Why a light as written was refused.
