@@ -4,7 +4,7 @@
 //! a hundred methods for the dozen that a BRDF needs. It is not a general numeric tower: add what a lobe needs, no more.
 
 use std::fmt::{Debug, Display};
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A real number: `f32` or `f64`.
 pub trait Real:
@@ -22,6 +22,9 @@ pub trait Real:
     + Sync
     + 'static
 {
+    /// What a comparison gives: `bool`, or one of them per lane.
+    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
+
     /// 0.
     const ZERO: Self;
     /// 1.
@@ -36,12 +39,24 @@ pub trait Real:
     fn abs(self) -> Self;
     /// 2 to this power.
     fn exp2(self) -> Self;
+    /// Logarithm to base 2; NaN below 0.
+    fn log2(self) -> Self;
+    /// Arc cosine in radians, in 0..pi; NaN outside -1..1.
+    fn acos(self) -> Self;
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
     /// The greater; of a number and NaN, the number.
     fn max(self, other: Self) -> Self;
     /// The smaller; of a number and NaN, the number.
     fn min(self, other: Self) -> Self;
+    /// Whether less; false for NaN.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// Whether less or equal; false for NaN.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `a` where the mask is true, `b` elsewhere (both are computed, as by WGSL's `select`, whose order is (b, a, mask)).
+    fn choose(mask: Self::Mask, a: Self, b: Self) -> Self;
+    /// This number to a power.
+    fn powf(self, power: Self) -> Self;
     /// Held in `low..=high`; NaN gives `low`.
     fn clamp(self, low: Self, high: Self) -> Self {
         self.max(low).min(high)
@@ -51,6 +66,7 @@ pub trait Real:
 macro_rules! real {
     ($t:ident) => {
         impl Real for $t {
+            type Mask = bool;
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             #[inline]
@@ -72,6 +88,30 @@ macro_rules! real {
             #[inline]
             fn exp2(self) -> Self {
                 $t::exp2(self)
+            }
+            #[inline]
+            fn log2(self) -> Self {
+                $t::log2(self)
+            }
+            #[inline]
+            fn acos(self) -> Self {
+                $t::acos(self)
+            }
+            #[inline]
+            fn powf(self, power: Self) -> Self {
+                $t::powf(self, power)
+            }
+            #[inline]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline]
+            fn le(self, other: Self) -> bool {
+                self <= other
+            }
+            #[inline]
+            fn choose(mask: bool, a: Self, b: Self) -> Self {
+                if mask { a } else { b }
             }
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
