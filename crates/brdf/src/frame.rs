@@ -38,8 +38,7 @@ pub struct Half<R> {
 #[inline]
 pub fn frame_from_normal<R: Real>(normal: [R; 3], view_dir: [R; 3]) -> Frame<R> {
     let n_dot_v = dot(normal, view_dir);
-    let floor = R::of(N_DOT_V_FLOOR);
-    Frame { normal, view_dir, n_dot_v: if n_dot_v > floor { n_dot_v.min(R::ONE) } else { floor } }
+    Frame { normal, view_dir, n_dot_v: n_dot_v.clamp(R::of(N_DOT_V_FLOOR), R::ONE) }
 }
 
 /// The half vector of the unit direction `dir` to a light.
@@ -55,14 +54,14 @@ pub fn half_from_light<R: Real>(frame: Frame<R>, dir: [R; 3]) -> Half<R> {
     let n_dot_l = dot(frame.normal, dir);
     let sum = add(frame.view_dir, dir);
     let length2 = dot(sum, sum);
-    let has_half = length2 > R::of(LENGTH2_FLOOR);
-    let inv_length = if has_half { R::ONE / length2.sqrt() } else { R::ZERO };
+    let has_half = R::of(LENGTH2_FLOOR).lt(length2);
+    let inv_length = R::choose(has_half, R::ONE / length2.sqrt(), R::ZERO);
     let h = scale(sum, inv_length);
     let sine = cross(frame.normal, h);
     Half {
-        n_dot_l: if n_dot_l > R::ZERO { n_dot_l.min(R::ONE) } else { R::ZERO },
+        n_dot_l: n_dot_l.clamp(R::ZERO, R::ONE),
         n_dot_h: dot(frame.normal, h),
         l_dot_h: R::of(0.5) * length2 * inv_length,
-        sin2_theta_h: if has_half { dot(sine, sine) } else { R::ONE },
+        sin2_theta_h: R::choose(has_half, dot(sine, sine), R::ONE),
     }
 }

@@ -55,15 +55,12 @@ pub fn f_dielectric<R: Real>(eta: R, cos_theta: R) -> R {
     let n = eta.min(R::of(ETA_CEILING));
     let e = (n - R::ONE) * (n + R::ONE);
     let g2 = e + c * c;
-    if g2 < R::ZERO {
-        return R::ONE;
-    }
     let floor = R::of(COSINE_SUM_FLOOR);
     let g = g2.max(R::ZERO).sqrt();
     let sum = (g + c).max(floor);
     let r_s = e / (sum * sum);
     let r_p = r_s * sum * (c * sum - R::ONE) / (n * n * c + g).max(floor);
-    R::of(0.5) * (r_s * r_s + r_p * r_p)
+    R::choose(g2.lt(R::ZERO), R::ONE, R::of(0.5) * (r_s * r_s + r_p * r_p))
 }
 
 /// Reflectance at normal incidence of a dielectric in air: ((ior - 1)/(ior + 1))^2.
@@ -72,7 +69,7 @@ pub fn f_dielectric<R: Real>(eta: R, cos_theta: R) -> R {
 /// gives 1. Error in f32: <= 2 ulp for ior in [1, 3].
 #[inline]
 pub fn f0_from_ior<R: Real>(ior: R) -> R {
-    let n = if ior > R::ZERO { ior.min(R::of(ETA_CEILING)) } else { R::ZERO };
+    let n = ior.clamp(R::ZERO, R::of(ETA_CEILING));
     let s = (n - R::ONE) / (n + R::ONE);
     s * s
 }

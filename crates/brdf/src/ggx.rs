@@ -19,7 +19,7 @@ const V_FLOOR: f64 = 1e-36;
 /// Held in [0, 1]; NaN gives 1.
 #[inline]
 pub fn alpha_from_perceptual_roughness<R: Real>(perceptual_roughness: R) -> R {
-    let r = if perceptual_roughness < R::ONE { perceptual_roughness.max(R::ZERO) } else { R::ONE };
+    let r = perceptual_roughness.min(R::ONE).max(R::ZERO);
     r * r
 }
 

@@ -23,4 +23,4 @@ mod real;
 pub mod sampling;
 pub mod vector;
 
-pub use real::Real;
+pub use real::{Real, Scalar};

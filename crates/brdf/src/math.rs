@@ -29,15 +29,13 @@ pub fn pow5<R: Real>(x: R) -> R {
 #[inline]
 pub fn normalize_or<R: Real>(v: [R; 3], fallback: [R; 3]) -> [R; 3] {
     let length2 = dot(v, v);
-    if length2 > R::of(LENGTH2_FLOOR) && length2 < R::of(LENGTH2_CEILING) {
-        scale(v, R::ONE / length2.sqrt())
-    } else {
-        fallback
-    }
+    let has_direction = R::of(LENGTH2_FLOOR).lt(length2) & length2.lt(R::of(LENGTH2_CEILING));
+    let unit = scale(v, R::ONE / length2.sqrt());
+    [0, 1, 2].map(|i| R::choose(has_direction, unit[i], fallback[i]))
 }
 
 /// The colour with each channel that is NaN, infinite or beyond +-3e38 set to 0. Exact for all others.
 #[inline]
 pub fn finite_or_zero<R: Real>(c: [R; 3]) -> [R; 3] {
-    c.map(|x| if x.abs() < R::of(FINITE_CEILING) { x } else { R::ZERO })
+    c.map(|x| R::choose(x.abs().lt(R::of(FINITE_CEILING)), x, R::ZERO))
 }

@@ -1,18 +1,19 @@
-//! The numbers that the crate computes with: `f32`, which a GPU has, and `f64`, which the truth is made of.
+//! The numbers that the crate computes with: `f32`, which a GPU has, `f64`, which the truth is made of, and lanes of `f32`,
+//! which a CPU computes side by side.
 //!
-//! It is a trait of our own, and small, so that the crate depends on `std` alone: `num-traits` would bring a surface of
-//! a hundred methods for the dozen that a BRDF needs. It is not a general numeric tower: add what a lobe needs, no more.
+//! It is a trait of our own, and small: `num-traits` would bring a surface of a hundred methods for the dozen that a BRDF
+//! needs, and has no masks. `simba` has both and far more; `wide` and `pulp` have lanes and no trait that `f64` shares.
+//! It is not a general numeric tower: add what a lobe needs, no more.
+//!
+//! A function over `Real` has no `if` on values, because lanes differ: it computes both sides and calls [`Real::choose`].
 
 use std::fmt::{Debug, Display};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// A real number: `f32` or `f64`.
+/// A real number: `f32`, `f64`, or several `f32` side by side.
 pub trait Real:
     Copy
     + Debug
-    + Display
-    + Default
-    + PartialOrd
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -31,8 +32,6 @@ pub trait Real:
     const ONE: Self;
     /// The nearest number of this type.
     fn of(x: f64) -> Self;
-    /// The same number, exactly.
-    fn to_f64(self) -> f64;
     /// Square root; NaN below 0.
     fn sqrt(self) -> Self;
     /// Absolute value.
@@ -63,6 +62,12 @@ pub trait Real:
     }
 }
 
+/// A single real number, `f32` or `f64`: one that can be compared, printed and widened.
+pub trait Scalar: Real<Mask = bool> + PartialOrd + Default + Display {
+    /// The same number, exactly.
+    fn to_f64(self) -> f64;
+}
+
 macro_rules! real {
     ($t:ident) => {
         impl Real for $t {
@@ -72,10 +77,6 @@ macro_rules! real {
             #[inline]
             fn of(x: f64) -> Self {
                 x as $t
-            }
-            #[inline]
-            fn to_f64(self) -> f64 {
-                f64::from(self)
             }
             #[inline]
             fn sqrt(self) -> Self {
@@ -124,6 +125,13 @@ macro_rules! real {
             #[inline]
             fn min(self, other: Self) -> Self {
                 $t::min(self, other)
+            }
+        }
+
+        impl Scalar for $t {
+            #[inline]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
             }
         }
     };

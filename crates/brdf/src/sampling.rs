@@ -12,12 +12,9 @@ use crate::math::{PI, normalize_or};
 /// Edges: 0 at n.w <= 0; alpha = 0 gives 1. Error in f32: <= 3 ulp.
 #[inline]
 pub fn g1_smith_ggx<R: Real>(n_dot_w: R, alpha: R) -> R {
-    if n_dot_w > R::ZERO {
-        let a2 = alpha * alpha;
-        R::of(2.0) * n_dot_w / (n_dot_w + (a2 + (R::ONE - a2) * n_dot_w * n_dot_w).sqrt())
-    } else {
-        R::ZERO
-    }
+    let a2 = alpha * alpha;
+    let g1 = R::of(2.0) * n_dot_w / (n_dot_w + (a2 + (R::ONE - a2) * n_dot_w * n_dot_w).sqrt());
+    R::choose(R::ZERO.lt(n_dot_w), g1, R::ZERO)
 }
 
 /// A half vector drawn from the GGX normals that `view` sees, D_v(h) = G1(v) max(0, v.h) D(h) / n.v.

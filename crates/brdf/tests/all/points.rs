@@ -1,7 +1,7 @@
 //! Every function against 60-digit truth at points of twelve classes: 72 that stand in this package, and some 2,000 where
 //! there is the folder of truth data.
 
-use halfvector_brdf::Real;
+use halfvector_brdf::Scalar;
 use halfvector_brdf::diffuse::{diffuse_burley, diffuse_lambert};
 use halfvector_brdf::frame::{frame_from_normal, half_from_light};
 use halfvector_brdf::fresnel::{f_dielectric, f_exact, f_schlick, f0_from_ior};
@@ -22,12 +22,12 @@ struct Term<R> {
     tolerance: f64,
 }
 
-fn col<R: Real>(row: Row, column: &str) -> R {
+fn col<R: Scalar>(row: Row, column: &str) -> R {
     R::of(row.number(column))
 }
 
 /// The terms that are functions of given scalars. `epsilon` is the type's: tolerances are multiples of it.
-fn terms<R: Real>(epsilon: f64) -> Vec<Term<R>> {
+fn terms<R: Scalar>(epsilon: f64) -> Vec<Term<R>> {
     let tolerance = 8.0 * epsilon;
     let schlick = |row: Row| row.number("F_schlick").max(0.02);
     vec![
@@ -131,7 +131,7 @@ fn terms<R: Real>(epsilon: f64) -> Vec<Term<R>> {
     ]
 }
 
-fn compare_terms<R: Real>(type_name: &str, epsilon: f64, points: &Table) {
+fn compare_terms<R: Scalar>(type_name: &str, epsilon: f64, points: &Table) {
     let mut failures = Vec::new();
     for term in terms::<R>(epsilon) {
         let (mut rows, mut passed, mut worst) = (0, 0, 0.0_f64);
@@ -162,11 +162,11 @@ fn terms_in_f32() {
     points().iter().for_each(|p| compare_terms::<f32>("f32", f64::from(f32::EPSILON), p));
 }
 
-fn vector<R: Real>(row: Row, columns: [&str; 3]) -> [R; 3] {
+fn vector<R: Scalar>(row: Row, columns: [&str; 3]) -> [R; 3] {
     columns.map(|c| R::of(row.number(c)))
 }
 
-fn specular<R: Real>(row: Row, view: [R; 3], light: [R; 3]) -> R {
+fn specular<R: Scalar>(row: Row, view: [R; 3], light: [R; 3]) -> R {
     let frame = frame_from_normal([R::ZERO, R::ZERO, R::ONE], view);
     let p = Specular { f0: [col(row, "f0"); 3], f90: [R::ONE; 3], alpha: col(row, "alpha") };
     specular_eval(frame, light, p)[1]

@@ -1,7 +1,7 @@
 //! The error of each function's f32 form, in units of the last place of the f64 form's value, over a lattice of the
 //! documented domain. The figures in the functions' documentation are these bounds.
 
-use halfvector_brdf::Real;
+use halfvector_brdf::Scalar;
 use halfvector_brdf::dfg::dfg_karis;
 use halfvector_brdf::diffuse::diffuse_burley;
 use halfvector_brdf::fresnel::{f_dielectric, f_exact, f_schlick, f0_from_ior};
@@ -23,7 +23,7 @@ struct Case {
 
 macro_rules! case {
     ($name:literal, $ulp:expr, $floor:expr, |$u:ident| $body:expr) => {{
-        fn body<R: Real>($u: [R; 4]) -> R {
+        fn body<R: Scalar>($u: [R; 4]) -> R {
             $body
         }
         Case { name: $name, f32: body::<f32>, f64: body::<f64>, ulp: $ulp, floor: $floor }
@@ -31,16 +31,16 @@ macro_rules! case {
 }
 
 /// u of [0, 1) to a cosine in (1e-6, 1): half of them uniform, half logarithmic.
-fn cosine<R: Real>(u: R) -> R {
+fn cosine<R: Scalar>(u: R) -> R {
     log_uniform(u, -20.0)
 }
 
-fn roughness<R: Real>(u: R) -> R {
+fn roughness<R: Scalar>(u: R) -> R {
     log_uniform(u, -13.3)
 }
 
 /// 2^(low u') or uniform: the same number in both types, by rounding to 20 bits below its leading one.
-fn log_uniform<R: Real>(u: R, low: f64) -> R {
+fn log_uniform<R: Scalar>(u: R, low: f64) -> R {
     let u = u.to_f64();
     let x = if u < 0.5 { (low * 2.0 * u).exp2() } else { 2.0 * u - 1.0 + 1e-6 };
     R::of(f64::from(x as f32))
@@ -94,13 +94,13 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-fn alpha_of<R: Real>(u: R) -> R {
+fn alpha_of<R: Scalar>(u: R) -> R {
     // Squared in f32: both types get the same alpha.
     R::of(f64::from(alpha_from_perceptual_roughness(roughness::<f32>(u.to_f64() as f32))))
 }
 
 /// u rounded so that sums and products of it with small whole numbers are exact in f32.
-fn unit<R: Real>(u: R) -> R {
+fn unit<R: Scalar>(u: R) -> R {
     R::of((u.to_f64() * 4096.0).floor() / 4096.0)
 }
 
