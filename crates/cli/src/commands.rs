@@ -6,3 +6,4 @@ pub(crate) mod first_light;
 pub(crate) mod methods;
 pub(crate) mod nodes;
 pub(crate) mod render;
+pub(crate) mod report;

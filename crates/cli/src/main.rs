@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{check, export, first_light, methods, nodes, render};
+use crate::commands::{check, export, first_light, methods, nodes, render, report};
 
 /// Materials as node graphs: draw them, take their shaders, check them.
 ///
@@ -38,6 +38,7 @@ enum Command {
     Check(check::CheckArgs),
     Nodes(nodes::NodesArgs),
     Methods(methods::MethodsArgs),
+    Report(report::ReportArgs),
 }
 
 fn main() -> ExitCode {
@@ -49,6 +50,7 @@ fn main() -> ExitCode {
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Nodes(args)) => nodes::run(args),
         Some(Command::Methods(args)) => methods::run(args),
+        Some(Command::Report(args)) => report::run(args),
     };
     match result {
         Ok(code) => ExitCode::from(code),

@@ -13,7 +13,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("crates/codegen", &["graph", "shaders"]),
     ("crates/scene", &["graph", "maps", "ibl"]),
     ("crates/render", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
-    ("crates/cli", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),
+    ("crates/report", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),
+    ("crates/cli", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "report", "shaders"]),
 ];
 
 /// Packages of others that only some of ours may name.

@@ -1,0 +1,16 @@
+//! The parts of the report: what is measured, each in a file of its own.
+
+pub mod brdf;
+
+use crate::{Effort, Row};
+
+/// A part of the report.
+pub struct Part {
+    /// Name for `--only`.
+    pub name: &'static str,
+    /// Measures it.
+    pub rows: fn(Effort) -> Vec<Row>,
+}
+
+/// All parts, in the order shown.
+pub const PARTS: &[Part] = &[Part { name: "brdf", rows: brdf::rows }];
