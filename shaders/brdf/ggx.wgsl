@@ -1,4 +1,5 @@
-// The GGX (Trowbridge-Reitz) microfacet distribution, isotropic: D, and V = G / (4 n.l n.v).
+// The GGX (Trowbridge-Reitz) microfacet distribution, isotropic: D, and V = G / (4 n.l n.v). All V have one signature,
+// so that one can stand for another; Smith's forms do not look at l.h.
 
 // Perceptual roughness below which a highlight of a punctual light is narrower than f32 directions can resolve between
 // neighbouring pixels; who shades with punctual lights holds the roughness above it. Environments have no floor.
@@ -31,7 +32,7 @@ fn d_ggx(n_dot_h: f32, sin2_theta_h: f32, alpha: f32) -> f32 {
 
 /// Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, equation 99 over 4 n.l n.v:
 /// V = 1/2 / (n.l sqrt(alpha^2 + (1 - alpha^2)(n.v)^2) + n.v sqrt(alpha^2 + (1 - alpha^2)(n.l)^2)).
-fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, alpha: f32) -> f32 {
+fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
     let view = n_dot_l * sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v);
     let light = n_dot_v * sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l);
@@ -40,7 +41,7 @@ fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, alpha: f32) -> f32 {
 
 /// Walter et al. 2007: G = G1(v) G1(l), G1(w) = 2 n.w / (n.w + sqrt(alpha^2 + (1 - alpha^2)(n.w)^2)), over 4 n.l n.v:
 /// V = 1 / ((n.v + sqrt(alpha^2 + (1 - alpha^2)(n.v)^2)) (n.l + sqrt(alpha^2 + (1 - alpha^2)(n.l)^2))).
-fn v_smith_ggx_separable(n_dot_v: f32, n_dot_l: f32, alpha: f32) -> f32 {
+fn v_smith_ggx_separable(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
     let view = n_dot_v + sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v);
     let light = n_dot_l + sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l);

@@ -11,8 +11,8 @@ struct Diffuse {
 /// BRDF times n.l for the unit direction `l` to a light, in 1/sr; 0 where the light is behind the surface.
 fn diffuse_eval(frame: Frame, l: vec3f, p: Diffuse) -> vec3f {
     let h = half_from_light(frame, l);
-    let brdf = diffuse_lambert(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
-    return finite_or_zero(p.color * (brdf * h.n_dot_l));
+    let brdf = diffuse_lambert(p.color, frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
+    return finite_or_zero(brdf * h.n_dot_l);
 }
 
 /// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.

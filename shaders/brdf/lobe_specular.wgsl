@@ -17,7 +17,7 @@ struct Specular {
 fn specular_eval(frame: Frame, l: vec3f, p: Specular) -> vec3f {
     let h = half_from_light(frame, l);
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
-    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, p.alpha);
+    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
     let f = f_schlick(p.f0, p.f90, h.l_dot_h);
     return finite_or_zero(f * (v * h.n_dot_l * d));
 }

@@ -115,9 +115,9 @@ fn specular_albedo(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
 
 // ---- brdf/diffuse.wgsl
 
-/// Lambert 1760, Photometria: 1 / pi.
-fn diffuse_lambert(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, perceptual_roughness: f32) -> f32 {
-    return INV_PI;
+/// Lambert 1760, Photometria: albedo / pi.
+fn diffuse_lambert(albedo: vec3f, n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, perceptual_roughness: f32) -> vec3f {
+    return albedo * INV_PI;
 }
 
 // ---- brdf/frame.wgsl
@@ -221,7 +221,7 @@ fn d_ggx(n_dot_h: f32, sin2_theta_h: f32, alpha: f32) -> f32 {
 
 /// Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, equation 99 over 4 n.l n.v:
 /// V = 1/2 / (n.l sqrt(alpha^2 + (1 - alpha^2)(n.v)^2) + n.v sqrt(alpha^2 + (1 - alpha^2)(n.l)^2)).
-fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, alpha: f32) -> f32 {
+fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
     let view = n_dot_l * sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v);
     let light = n_dot_v * sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l);
@@ -241,8 +241,8 @@ struct Diffuse {
 /// BRDF times n.l for the unit direction `l` to a light, in 1/sr; 0 where the light is behind the surface.
 fn diffuse_eval(frame: Frame, l: vec3f, p: Diffuse) -> vec3f {
     let h = half_from_light(frame, l);
-    let brdf = diffuse_lambert(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
-    return finite_or_zero(p.color * (brdf * h.n_dot_l));
+    let brdf = diffuse_lambert(p.color, frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
+    return finite_or_zero(brdf * h.n_dot_l);
 }
 
 /// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.
@@ -269,7 +269,7 @@ struct Specular {
 fn specular_eval(frame: Frame, l: vec3f, p: Specular) -> vec3f {
     let h = half_from_light(frame, l);
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
-    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, p.alpha);
+    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
     let f = f_schlick(p.f0, p.f90, h.l_dot_h);
     return finite_or_zero(f * (v * h.n_dot_l * d));
 }

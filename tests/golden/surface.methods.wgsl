@@ -104,14 +104,14 @@ fn specular_albedo(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
 // ---- brdf/diffuse.wgsl
 
 /// Burley 2012, Physically-Based Shading at Disney:
-/// (1 + (F90 - 1)(1 - n.l)^5)(1 + (F90 - 1)(1 - n.v)^5) / pi,  F90 = 1/2 + 2 perceptual_roughness (l.h)^2.
+/// albedo (1 + (F90 - 1)(1 - n.l)^5)(1 + (F90 - 1)(1 - n.v)^5) / pi,  F90 = 1/2 + 2 perceptual_roughness (l.h)^2.
 ///
 /// It is reciprocal but does not keep energy: at high roughness and grazing angles it reflects more than it receives.
-fn diffuse_burley(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, perceptual_roughness: f32) -> f32 {
+fn diffuse_burley(albedo: vec3f, n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, perceptual_roughness: f32) -> vec3f {
     let f90_minus_1 = 2.0 * perceptual_roughness * l_dot_h * l_dot_h - 0.5;
     let light = 1.0 + f90_minus_1 * pow5(clamp(1.0 - n_dot_l, 0.0, 1.0));
     let view = 1.0 + f90_minus_1 * pow5(clamp(1.0 - n_dot_v, 0.0, 1.0));
-    return light * view * INV_PI;
+    return albedo * (light * view * INV_PI);
 }
 
 // ---- brdf/frame.wgsl
@@ -260,7 +260,7 @@ fn d_ggx(n_dot_h: f32, sin2_theta_h: f32, alpha: f32) -> f32 {
 
 /// Walter et al. 2007: G = G1(v) G1(l), G1(w) = 2 n.w / (n.w + sqrt(alpha^2 + (1 - alpha^2)(n.w)^2)), over 4 n.l n.v:
 /// V = 1 / ((n.v + sqrt(alpha^2 + (1 - alpha^2)(n.v)^2)) (n.l + sqrt(alpha^2 + (1 - alpha^2)(n.l)^2))).
-fn v_smith_ggx_separable(n_dot_v: f32, n_dot_l: f32, alpha: f32) -> f32 {
+fn v_smith_ggx_separable(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
     let view = n_dot_v + sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v);
     let light = n_dot_l + sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l);
@@ -280,8 +280,8 @@ struct Diffuse {
 /// BRDF times n.l for the unit direction `l` to a light, in 1/sr; 0 where the light is behind the surface.
 fn diffuse_eval(frame: Frame, l: vec3f, p: Diffuse) -> vec3f {
     let h = half_from_light(frame, l);
-    let brdf = diffuse_burley(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
-    return finite_or_zero(p.color * (brdf * h.n_dot_l));
+    let brdf = diffuse_burley(p.color, frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
+    return finite_or_zero(brdf * h.n_dot_l);
 }
 
 /// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.
@@ -308,7 +308,7 @@ struct Specular {
 fn specular_eval(frame: Frame, l: vec3f, p: Specular) -> vec3f {
     let h = half_from_light(frame, l);
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
-    let v = v_smith_ggx_separable(frame.n_dot_v, h.n_dot_l, p.alpha);
+    let v = v_smith_ggx_separable(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
     let f = f_exact(p.f0, p.f90, h.l_dot_h);
     return finite_or_zero(f * (v * h.n_dot_l * d));
 }

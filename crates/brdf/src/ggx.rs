@@ -1,5 +1,6 @@
 //! The GGX (Trowbridge-Reitz) microfacet distribution, isotropic: D, and V = G / (4 n.l n.v).
 //!
+//! All V have one signature, so that one can stand for another; Smith's forms do not look at l.h.
 //! Domain: perceptual roughness in [1e-4, 1], that is alpha in [1e-8, 1]; cosines in [1e-6, 1].
 
 use crate::Real;
@@ -43,7 +44,7 @@ pub fn d_ggx<R: Real>(n_dot_h: R, sin2_theta_h: R, alpha: R) -> R {
 /// Edges: n.l = n.v = 0 gives 5e35 (the true value is infinite, and V n.l is 0).
 /// Error in f32: <= 4 ulp.
 #[inline]
-pub fn v_smith_ggx_correlated<R: Real>(n_dot_v: R, n_dot_l: R, alpha: R) -> R {
+pub fn v_smith_ggx_correlated<R: Real>(n_dot_v: R, n_dot_l: R, _l_dot_h: R, alpha: R) -> R {
     let a2 = alpha * alpha;
     let view = n_dot_l * (a2 + (R::ONE - a2) * n_dot_v * n_dot_v).sqrt();
     let light = n_dot_v * (a2 + (R::ONE - a2) * n_dot_l * n_dot_l).sqrt();
@@ -56,7 +57,7 @@ pub fn v_smith_ggx_correlated<R: Real>(n_dot_v: R, n_dot_l: R, alpha: R) -> R {
 /// Edges: n.l = n.v = alpha = 0 gives 1e36. Error in f32: <= 5 ulp.
 /// Against the height-correlated form it is up to 64 % too dark at roughness 0.3, 85 % at 0.5 (both cosines 0.01).
 #[inline]
-pub fn v_smith_ggx_separable<R: Real>(n_dot_v: R, n_dot_l: R, alpha: R) -> R {
+pub fn v_smith_ggx_separable<R: Real>(n_dot_v: R, n_dot_l: R, _l_dot_h: R, alpha: R) -> R {
     let a2 = alpha * alpha;
     let view = n_dot_v + (a2 + (R::ONE - a2) * n_dot_v * n_dot_v).sqrt();
     let light = n_dot_l + (a2 + (R::ONE - a2) * n_dot_l * n_dot_l).sqrt();

@@ -21,8 +21,8 @@ pub struct Diffuse<R> {
 #[inline]
 pub fn diffuse_eval<R: Real>(frame: Frame<R>, l: [R; 3], p: Diffuse<R>) -> [R; 3] {
     let h = half_from_light(frame, l);
-    let brdf = diffuse_lambert(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
-    finite_or_zero(scale(p.color, brdf * h.n_dot_l))
+    let brdf = diffuse_lambert(p.color, frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
+    finite_or_zero(scale(brdf, h.n_dot_l))
 }
 
 /// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.

@@ -28,7 +28,7 @@ pub struct Specular<R> {
 pub fn specular_eval<R: Real>(frame: Frame<R>, l: [R; 3], p: Specular<R>) -> [R; 3] {
     let h = half_from_light(frame, l);
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
-    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, p.alpha);
+    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
     let f = f_schlick(p.f0, p.f90, h.l_dot_h);
     finite_or_zero(scale(f, v * h.n_dot_l * d))
 }

@@ -103,8 +103,8 @@ fn integrated(
                 continue;
             }
             let v = match visibility {
-                Visibility::Correlated => v_smith_ggx_correlated(n_dot_v, n_dot_l, alpha),
-                Visibility::Separable => v_smith_ggx_separable(n_dot_v, n_dot_l, alpha),
+                Visibility::Correlated => v_smith_ggx_correlated(n_dot_v, n_dot_l, v_dot_h, alpha),
+                Visibility::Separable => v_smith_ggx_separable(n_dot_v, n_dot_l, v_dot_h, alpha),
             };
             // du / dt, and the share of the ray.
             let weight = w * end / 2.0 * 4.0 * t * (1.0 - t * t) / rays as f64;

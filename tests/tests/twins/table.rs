@@ -90,8 +90,8 @@ fn sample(s: LightSample<f64>) -> [f64; 6] {
 pub(crate) const TWINS: &[Twin] = &[
     twin!("brdf/dfg.wgsl" "dfg_karis", [Cosine, Roughness], 16.0, 1.0, FLOAT, |x| dfg::dfg_karis(x[0], x[1])),
     twin!("brdf/dfg.wgsl" "specular_albedo", [Reflectances(1.0), Pair(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| dfg::specular_albedo(v(x, 0), v(x, 3), v(x, 6))),
-    twin!("brdf/diffuse.wgsl" "diffuse_burley", [Cosine, Cosine, Cosine, Roughness], 8.0, 0.0, DOUBLE, |x| [diffuse::diffuse_burley(x[0], x[1], x[2], x[3])]),
-    twin!("brdf/diffuse.wgsl" "diffuse_lambert", [Cosine, Cosine, Cosine, Roughness], 0.5, 0.0, DOUBLE, |x| [diffuse::diffuse_lambert(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/diffuse.wgsl" "diffuse_burley", [Color(0.0, 1.0), Cosine, Cosine, Cosine, Roughness], 8.0, 0.0, DOUBLE, |x| diffuse::diffuse_burley(v(x, 0), x[3], x[4], x[5], x[6])),
+    twin!("brdf/diffuse.wgsl" "diffuse_lambert", [Color(0.0, 1.0), Cosine, Cosine, Cosine, Roughness], 1.0, 0.0, DOUBLE, |x| diffuse::diffuse_lambert(v(x, 0), x[3], x[4], x[5], x[6])),
     twin!("brdf/frame.wgsl" "frame_from_normal", [Unit, Unit], 2.0, 1.0, DOUBLE, |x| {
         let f = frame_from_normal(v(x, 0), v(x, 3));
         [x[0], x[1], x[2], x[3], x[4], x[5], f.n_dot_v]
@@ -107,8 +107,8 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("brdf/fresnel.wgsl" "f_schlick", [Reflectances(1.0), Cosine], 8.0, 0.02, DOUBLE, |x| fresnel::f_schlick(v(x, 0), v(x, 3), x[6])),
     twin!("brdf/ggx.wgsl" "alpha_from_perceptual_roughness", [Range(-0.5, 1.5)], 0.5, 0.0, DOUBLE, |x| [ggx::alpha_from_perceptual_roughness(x[0])]),
     twin!("brdf/ggx.wgsl" "d_ggx", [HalfAngle, Alpha], 12.0, 0.0, DOUBLE, |x| [ggx::d_ggx(x[0], x[1], x[2])]),
-    twin!("brdf/ggx.wgsl" "v_smith_ggx_correlated", [Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_correlated(x[0], x[1], x[2])]),
-    twin!("brdf/ggx.wgsl" "v_smith_ggx_separable", [Cosine, Cosine, Alpha], 10.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_separable(x[0], x[1], x[2])]),
+    twin!("brdf/ggx.wgsl" "v_smith_ggx_correlated", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_correlated(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/ggx.wgsl" "v_smith_ggx_separable", [Cosine, Cosine, Cosine, Alpha], 10.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_separable(x[0], x[1], x[2], x[3])]),
     twin!("brdf/lobe_diffuse.wgsl" "diffuse_environment", [Color(0.0, 1.0), Roughness, Color(0.0, 1e4)], 1.0, 0.0, DOUBLE, |x| diffuse_environment(diffuse(x, 0), v(x, 4))),
     twin!("brdf/lobe_diffuse.wgsl" "diffuse_eval", [Frame, FrontOfLast, Color(0.0, 1.0), Roughness], 8.0, 0.3, DOUBLE, |x| diffuse_eval(frame(x), v(x, 7), diffuse(x, 10))),
     // The directions' own rounding is 1 / alpha times as large in D: roughness from 0.3 here, all of it in d_ggx and in

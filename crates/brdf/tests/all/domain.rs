@@ -64,8 +64,8 @@ proptest! {
         let alpha = alpha_from_perceptual_roughness(roughness);
         let n_dot_h = (1.0 - sin2).sqrt();
         good("d_ggx", &[d_ggx(n_dot_h, sin2, alpha)])?;
-        good("v_smith_ggx_correlated", &[v_smith_ggx_correlated(n_dot_v, n_dot_l, alpha)])?;
-        good("v_smith_ggx_separable", &[v_smith_ggx_separable(n_dot_v, n_dot_l, alpha)])?;
+        good("v_smith_ggx_correlated", &[v_smith_ggx_correlated(n_dot_v, n_dot_l, cos_theta, alpha)])?;
+        good("v_smith_ggx_separable", &[v_smith_ggx_separable(n_dot_v, n_dot_l, cos_theta, alpha)])?;
         good("g1_smith_ggx", &[g1_smith_ggx(n_dot_v, alpha)])?;
         good("pdf", &[pdf_solid_angle_ggx_vndf(n_dot_v, n_dot_h, sin2, alpha)])?;
         good("f_schlick", &f_schlick(f0, f90, cos_theta))?;
@@ -73,7 +73,7 @@ proptest! {
         good("f_dielectric", &[f_dielectric(eta, cos_theta)])?;
         prop_assert!(f_dielectric(eta, cos_theta) <= 1.000_001);
         good("f0_from_ior", &[f0_from_ior(eta)])?;
-        good("diffuse_burley", &[diffuse_burley(n_dot_v, n_dot_l, cos_theta, roughness)])?;
+        good("diffuse_burley", &diffuse_burley(f0, n_dot_v, n_dot_l, cos_theta, roughness))?;
         let dfg = dfg_karis(n_dot_v, roughness);
         good("dfg_karis", &dfg)?;
         good("specular_albedo", &specular_albedo(f0, f90, dfg))?;
@@ -125,8 +125,8 @@ proptest! {
         let alpha = alpha_from_perceptual_roughness(roughness);
         if a.is_finite() && b.is_finite() && a.abs() < 1e15 && b.abs() < 1e15 {
             good("d_ggx", &[d_ggx(a, b, alpha)])?;
-            good("v_smith_ggx_correlated", &[v_smith_ggx_correlated(a.abs(), b.abs(), alpha)])?;
-            good("v_smith_ggx_separable", &[v_smith_ggx_separable(a.abs(), b.abs(), alpha)])?;
+            good("v_smith_ggx_correlated", &[v_smith_ggx_correlated(a.abs(), b.abs(), a, alpha)])?;
+            good("v_smith_ggx_separable", &[v_smith_ggx_separable(a.abs(), b.abs(), a, alpha)])?;
         }
         good("f0_from_ior", &[f0_from_ior(a)])?;
         good("f_dielectric", &[f_dielectric(a.abs(), b)])?;

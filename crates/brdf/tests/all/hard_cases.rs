@@ -33,7 +33,8 @@ fn mirror(alpha: f32) -> Specular<f32> {
 /// (case, start of the input, our value, relative tolerance); the right answer is the table's.
 fn cases() -> Vec<(&'static str, &'static str, f32, f64)> {
     let tiny = half_from_light(frame([1.0, 0.0, 1e-4]), [-1.0, 1e-7, 1e-4]);
-    let v = |n_dot_v, n_dot_l, r| v_smith_ggx_correlated(n_dot_v, n_dot_l, alpha_from_perceptual_roughness::<f32>(r));
+    let v =
+        |n_dot_v, n_dot_l, r| v_smith_ggx_correlated(n_dot_v, n_dot_l, 0.0, alpha_from_perceptual_roughness::<f32>(r));
     let sin2_of_angle = |angle: f32| {
         let normal = [0.0, 0.0, 1.0];
         // l and v on both sides of a half vector at this angle from n: v = n, l = n turned by 2 angle.

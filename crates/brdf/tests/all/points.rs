@@ -47,14 +47,14 @@ fn terms<R: Scalar>(epsilon: f64) -> Vec<Term<R>> {
         },
         Term {
             name: "v_smith_ggx_correlated",
-            ours: |r| v_smith_ggx_correlated(col(r, "nov"), col(r, "nol"), col(r, "alpha")),
+            ours: |r| v_smith_ggx_correlated(col(r, "nov"), col(r, "nol"), col(r, "voh"), col(r, "alpha")),
             truth: |r| r.number("V_smith_hc"),
             scale: |r| r.number("V_smith_hc"),
             tolerance,
         },
         Term {
             name: "v_smith_ggx_separable",
-            ours: |r| v_smith_ggx_separable(col(r, "nov"), col(r, "nol"), col(r, "alpha")),
+            ours: |r| v_smith_ggx_separable(col(r, "nov"), col(r, "nol"), col(r, "voh"), col(r, "alpha")),
             truth: |r| r.number("G2_smith_sep") / (4.0 * r.number("nov") * r.number("nol")),
             scale: |r| r.number("G2_smith_sep") / (4.0 * r.number("nov") * r.number("nol")),
             tolerance,
@@ -111,8 +111,7 @@ fn terms<R: Scalar>(epsilon: f64) -> Vec<Term<R>> {
         Term {
             name: "diffuse_lambert",
             ours: |r| {
-                let brdf = diffuse_lambert(col(r, "nov"), col(r, "nol"), col(r, "voh"), col(r, "roughness"));
-                col::<R>(r, "rho") * brdf
+                diffuse_lambert([col(r, "rho"); 3], col(r, "nov"), col(r, "nol"), col(r, "voh"), col(r, "roughness"))[0]
             },
             truth: |r| r.number("lambert"),
             scale: |r| r.number("lambert"),
@@ -121,8 +120,7 @@ fn terms<R: Scalar>(epsilon: f64) -> Vec<Term<R>> {
         Term {
             name: "diffuse_burley",
             ours: |r| {
-                let brdf = diffuse_burley(col(r, "nov"), col(r, "nol"), col(r, "voh"), col(r, "roughness"));
-                col::<R>(r, "rho") * brdf
+                diffuse_burley([col(r, "rho"); 3], col(r, "nov"), col(r, "nol"), col(r, "voh"), col(r, "roughness"))[0]
             },
             truth: |r| r.number("burley"),
             scale: |r| r.number("burley"),

@@ -63,9 +63,15 @@ fn cases() -> Vec<Case> {
         case!("v_smith_ggx_correlated", 4.0, 0.0, |u| v_smith_ggx_correlated(
             cosine(u[0]),
             cosine(u[1]),
+            R::ZERO,
             alpha_of(u[2])
         )),
-        case!("v_smith_ggx_separable", 5.0, 0.0, |u| v_smith_ggx_separable(cosine(u[0]), cosine(u[1]), alpha_of(u[2]))),
+        case!("v_smith_ggx_separable", 5.0, 0.0, |u| v_smith_ggx_separable(
+            cosine(u[0]),
+            cosine(u[1]),
+            R::ZERO,
+            alpha_of(u[2])
+        )),
         case!("g1_smith_ggx", 3.0, 0.0, |u| g1_smith_ggx(cosine(u[0]), alpha_of(u[1]))),
         case!("pdf_solid_angle_ggx_vndf", 10.0, 0.0, |u| {
             let sin2 = f64::from((2f64).powf(-40.0 * u[1].to_f64()) as f32);
@@ -80,11 +86,12 @@ fn cases() -> Vec<Case> {
         case!("f_dielectric", 16.0, 1e-4, |u| f_dielectric(unit(u[0]) * R::of(2.0) + R::ONE, cosine(u[1]))),
         case!("f0_from_ior", 2.0, 0.0, |u| f0_from_ior(unit(u[0]) * R::of(2.0) + R::ONE)),
         case!("diffuse_burley", 8.0, 0.0, |u| diffuse_burley(
+            [R::ONE; 3],
             cosine(u[0]),
             cosine(u[1]),
             cosine(u[2]),
             roughness(u[3])
-        )),
+        )[0]),
         case!("dfg_karis a", 4.0, 1.0, |u| dfg_karis(cosine(u[0]), roughness(u[1]))[0]),
         case!("dfg_karis b", 4.0, 1.0, |u| dfg_karis(cosine(u[0]), roughness(u[1]))[1]),
         case!("energy_compensation", 2.0, 0.0, |u| energy_compensation(

@@ -22,15 +22,16 @@ fn view_at(n_dot_v: f64) -> [f64; 3] {
 }
 
 /// Directional albedo of a white lobe by sampling: the mean of F G2 / G1 with F = 1.
-fn albedo(n_dot_v: f64, alpha: f64, visibility: fn(f64, f64, f64) -> f64) -> f64 {
+fn albedo(n_dot_v: f64, alpha: f64, visibility: fn(f64, f64, f64, f64) -> f64) -> f64 {
     let view = view_at(n_dot_v);
     let sum: f64 = half_vectors(view, alpha)
         .map(|h| {
-            let n_dot_l = 2.0 * dot(view, h) * h[2] - view[2];
+            let v_dot_h = dot(view, h);
+            let n_dot_l = 2.0 * v_dot_h * h[2] - view[2];
             if n_dot_l <= 0.0 {
                 return 0.0;
             }
-            visibility(n_dot_v, n_dot_l, alpha) * 4.0 * n_dot_v * n_dot_l / g1_smith_ggx(n_dot_v, alpha)
+            visibility(n_dot_v, n_dot_l, v_dot_h, alpha) * 4.0 * n_dot_v * n_dot_l / g1_smith_ggx(n_dot_v, alpha)
         })
         .sum();
     sum / (STRATA * STRATA) as f64
