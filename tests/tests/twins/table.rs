@@ -91,7 +91,7 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("brdf/dfg.wgsl" "dfg_karis", [Cosine, Roughness], 16.0, 1.0, FLOAT, |x| dfg::dfg_karis(x[0], x[1])),
     twin!("brdf/dfg.wgsl" "specular_albedo", [Reflectances(1.0), Pair(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| dfg::specular_albedo(v(x, 0), v(x, 3), v(x, 6))),
     twin!("brdf/diffuse.wgsl" "diffuse_burley", [Color(0.0, 1.0), Cosine, Cosine, Cosine, Roughness], 8.0, 0.0, DOUBLE, |x| diffuse::diffuse_burley(v(x, 0), x[3], x[4], x[5], x[6])),
-    twin!("brdf/diffuse.wgsl" "diffuse_lambert", [Color(0.0, 1.0), Cosine, Cosine, Cosine, Roughness], 1.0, 0.0, DOUBLE, |x| diffuse::diffuse_lambert(v(x, 0), x[3], x[4], x[5], x[6])),
+    twin!("brdf/diffuse.wgsl" "diffuse_lambert", [Color(0.0, 1.0), Cosine, Cosine, Cosine, Roughness], 2.0, 0.0, DOUBLE, |x| diffuse::diffuse_lambert(v(x, 0), x[3], x[4], x[5], x[6])),
     twin!("brdf/frame.wgsl" "frame_from_normal", [Unit, Unit], 2.0, 1.0, DOUBLE, |x| {
         let f = frame_from_normal(v(x, 0), v(x, 3));
         [x[0], x[1], x[2], x[3], x[4], x[5], f.n_dot_v]
