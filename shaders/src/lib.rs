@@ -39,6 +39,7 @@ pub const FILES: &[File] = files![
     "brdf/multiscatter.wgsl",
     "color.wgsl",
     "entry/background.wgsl",
+    "entry/bake.wgsl",
     "entry/transform.wgsl",
     "ibl/environment.wgsl",
     "light.wgsl",

@@ -23,7 +23,7 @@ mod lobe;
 mod repair;
 mod resample;
 
-pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, Quality, bake, bake_with_progress};
+pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, bake};
 pub use builtin::{sky, studio, white};
 pub use cube::{Cube, direction_from_face, face_from_direction, texel_solid_angle};
 pub use dfg::{DfgTable, Visibility, dfg, dfg_table, dfg_table_with};

@@ -95,6 +95,44 @@ impl Gpu {
         })
     }
 
+    /// Waits for submitted work and reads a buffer that can be mapped.
+    pub(crate) fn read_mapped<T>(
+        &self,
+        buffer: &wgpu::Buffer,
+        doing: &str,
+        take: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, RenderError> {
+        let lost = |why: String| RenderError::Lost { adapter: self.name.clone(), doing: doing.to_owned(), why };
+        let (sender, receiver) = std::sync::mpsc::channel();
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            // The receiver is gone only when the wait below failed, and then nobody asks.
+            let _ = sender.send(result);
+        });
+        self.wait(doing)?;
+        match receiver.try_recv() {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => return Err(lost(error.to_string())),
+            Err(_) => return Err(lost("the numbers did not come back".to_owned())),
+        }
+        let taken = take(&buffer.get_mapped_range(..).map_err(|error| lost(error.to_string()))?);
+        buffer.unmap();
+        Ok(taken)
+    }
+
+    /// Waits for submitted work and copies the f32 numbers of a buffer that can be copied from.
+    pub(crate) fn read_buffer(&self, buffer: &wgpu::Buffer, doing: &str) -> Result<Vec<f32>, RenderError> {
+        let mapped = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("read-back"),
+            size: buffer.size(),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(buffer, 0, &mapped, 0, buffer.size());
+        self.queue.submit([encoder.finish()]);
+        self.read_mapped(&mapped, doing, bytemuck::pod_collect_to_vec::<u8, f32>)
+    }
+
     /// The format that radiance is drawn to: 32-bit floats, or 16-bit ones where 32-bit ones cannot be blended and blending
     /// is wanted, or cannot be drawn to at all.
     pub(crate) fn radiance_format(&self, blending: bool) -> Result<wgpu::TextureFormat, RenderError> {

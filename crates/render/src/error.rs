@@ -77,6 +77,23 @@ pub enum RenderError {
         /// The device.
         adapter: String,
     },
+    /// The tree over an environment does not fit into the device's buffers.
+    #[error(
+        "an environment of {width} x {height} pixels needs a buffer of {bytes} bytes, and the GPU `{adapter}` allows \
+         {limit}; bake it on the CPU, or scale the file down"
+    )]
+    EnvironmentTooLarge {
+        /// Pixels.
+        width: usize,
+        /// Pixels.
+        height: usize,
+        /// Bytes wanted.
+        bytes: u64,
+        /// Bytes allowed.
+        limit: u64,
+        /// The device.
+        adapter: String,
+    },
     /// An image that a material refers to was not loaded into the scene.
     #[error("material `{material}`: the image {file} was not loaded; load the scene's images before it is drawn")]
     MissingImage {

@@ -4,6 +4,7 @@
 //! environments baked. It opens no window.
 
 mod background;
+mod bake;
 mod device;
 mod draws;
 mod error;

@@ -4,11 +4,12 @@ use halfvector_codegen::Fold;
 use halfvector_codegen::reflection::SamplerSource;
 use halfvector_graph::document::AlphaMode;
 use halfvector_graph::needs::ShaderOutput;
-use halfvector_ibl::BakedEnvironment;
+use halfvector_ibl::{BakedEnvironment, Cube, Equirect};
 use halfvector_scene::light::lights_by_kind;
 use halfvector_scene::{Background, Scene};
 
 use crate::background::Sky;
+use crate::bake::Filter;
 use crate::device::Gpu;
 use crate::draws::{EnvironmentTextures, prepare};
 use crate::error::RenderError;
@@ -62,6 +63,15 @@ impl Renderer {
     /// Whether the GPU is a program on the CPU.
     pub fn is_software(&self) -> bool {
         self.gpu.software
+    }
+
+    /// Filters a map with the prefilter lobe (n = v = r) of an alpha in 0..=1; 1 gives irradiance over pi.
+    ///
+    /// # Errors
+    /// When the map does not fit the device, or the device gives up.
+    pub fn filtered(&self, map: &Equirect, lobes: &[(f64, usize)]) -> Result<Vec<Cube>, RenderError> {
+        let filter = Filter::new(&self.gpu, map)?;
+        lobes.iter().map(|&(alpha, size)| filter.cube(alpha, size)).collect()
     }
 
     /// Draws a scene to linear radiance with premultiplied alpha. `environment` is the scene's environment, baked; it may be

@@ -81,7 +81,6 @@ impl Target {
         width: u32,
         height: u32,
     ) -> Result<Vec<[f32; 4]>, RenderError> {
-        let doing = "drawing";
         let format = self.color.format();
         let stride = row_bytes(format, self.width);
         encoder.copy_texture_to_buffer(
@@ -93,27 +92,13 @@ impl Target {
             wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
         gpu.queue.submit([encoder.finish()]);
-        let lost = |why: String| RenderError::Lost { adapter: gpu.name.clone(), doing: doing.to_owned(), why };
-        let (sender, receiver) = std::sync::mpsc::channel();
-        self.buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver is gone only when the wait below failed, and then nobody asks.
-            let _ = sender.send(result);
-        });
-        gpu.wait(doing)?;
-        match receiver.try_recv() {
-            Ok(Ok(())) => {}
-            Ok(Err(error)) => return Err(lost(error.to_string())),
-            Err(_) => return Err(lost("the samples did not come back".to_owned())),
-        }
-        let mut samples = Vec::with_capacity(width as usize * height as usize);
-        {
-            let bytes = self.buffer.get_mapped_range(..).map_err(|error| lost(error.to_string()))?;
+        gpu.read_mapped(&self.buffer, "drawing", |bytes| {
+            let mut samples = Vec::with_capacity(width as usize * height as usize);
             for row in bytes.chunks_exact(stride as usize).take(height as usize) {
                 append_samples(format, &row[..(width * sample_bytes(format)) as usize], &mut samples);
             }
-        }
-        self.buffer.unmap();
-        Ok(samples)
+            samples
+        })
     }
 }
 
