@@ -64,7 +64,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let metalness = node_textures_image(metalness_texture, linear_repeat, in.uv0); // Metalness
     let roughness = node_textures_image(roughness_texture, linear_repeat, in.uv0); // Roughness
     let normal_2 = node_textures_image(normal_texture, linear_repeat, in.uv0); // Normal
-    let normal_map = node_textures_normal_map(normal_2.color, 1.0, false, world_normal, in.world_tangent); // Normal map
+    let normal_map = node_textures_normal_map_tbn(normal_2.color, 1.0, false, world_normal, in.world_tangent); // Normal map
     let diffuse_albedo = albedo.color * (1.0 - metalness.r);
     let f0 = f0_from_metallic(albedo.color, metalness.r, 0.040000003);
     let frame = frame_from_normal(normal_map, view_dir);
@@ -410,11 +410,7 @@ fn node_textures_image(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f
 
 // ---- nodes/textures/normal_map.wgsl
 
-/// Normal Map
-///
-/// The surface's normal bent by a colour of a normal map (read it as linear): t = 2 c - 1 in the tangent frame.
-/// Maps are +Y (OpenGL); a -Y (DirectX) map wants the switch. The scene's `normal` method may choose one of the report's
-/// rotations instead of the tangent frame.
-fn node_textures_normal_map(color: vec3f, strength: f32, flip_y: bool, normal: vec3f, tangent: vec4f) -> vec3f {
+/// The normal map by the tangent frame of the mesh.
+fn node_textures_normal_map_tbn(color: vec3f, strength: f32, flip_y: bool, normal: vec3f, tangent: vec4f) -> vec3f {
     return normal_tbn(normal_from_texel(color, strength, flip_y), normal, tangent);
 }

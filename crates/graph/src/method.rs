@@ -113,6 +113,11 @@ pub const TERMS: &[Term] = &[
         methods: &[
             method("tbn", Some("normal_tbn"), "tangent frame, MikkTSpace"),
             method(
+                "tbn_derivative",
+                Some("normal_tbn_derivative"),
+                "tangent frame from the pixel's derivatives, Mikkelsen 2010, Schueler 2013: needs no tangents",
+            ),
+            method(
                 "rotation_report",
                 Some("normal_rotation_report"),
                 "three angles, Rz Ry Rx, as the report gives them",

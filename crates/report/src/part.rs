@@ -1,6 +1,7 @@
 //! The parts of the report: what is measured, each in a file of its own.
 
 pub mod brdf;
+pub mod maps;
 
 use crate::{Effort, Row};
 
@@ -13,4 +14,4 @@ pub struct Part {
 }
 
 /// All parts, in the order shown.
-pub const PARTS: &[Part] = &[Part { name: "brdf", rows: brdf::rows }];
+pub const PARTS: &[Part] = &[Part { name: "brdf", rows: brdf::rows }, Part { name: "maps", rows: maps::rows }];

@@ -33,6 +33,8 @@ pub(crate) enum Domain {
     TangentOfLast,
     /// Two derivatives of a position, no longer than 0.1, and the unit normal across both (three arguments).
     Footprint,
+    /// Two derivatives of texture coordinates, no longer than 0.1 and at least 26 degrees from one line (two arguments).
+    UvFootprint,
     /// A frame: unit normal, unit view direction, and n.v (a struct).
     Frame,
     /// A unit direction in front of the frame before.
@@ -180,6 +182,17 @@ impl Domain {
                 out.extend(second.map(|x| x * lengths[1]));
                 out.extend(normal);
             }
+            Domain::UvFootprint => loop {
+                let [a, b] = [0; 2].map(|_| std::f64::consts::TAU * n.unit());
+                if (a - b).sin().abs() > 0.44 {
+                    let lengths = [n.magnitude(1e-4, 0.1), n.magnitude(1e-4, 0.1)];
+                    return out.extend(
+                        [(a, lengths[0]), (b, lengths[1])]
+                            .iter()
+                            .flat_map(|(a, l)| [a.cos() as f32 * l, a.sin() as f32 * l]),
+                    );
+                }
+            },
             Domain::Frame => loop {
                 let (normal, view) = (n.direction(), n.direction());
                 let n_dot_v = dot(normal, view);

@@ -3,6 +3,7 @@
 
 mod domain;
 mod gpu;
+mod hard_cases;
 mod signatures;
 mod table;
 mod truth;

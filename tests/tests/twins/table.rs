@@ -6,7 +6,7 @@ use halfvector_brdf::lobe_diffuse::{Diffuse, diffuse_environment, diffuse_eval};
 use halfvector_brdf::lobe_specular::{Specular, specular_environment, specular_eval};
 use halfvector_brdf::{dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter};
 use halfvector_ibl::environment;
-use halfvector_maps::{color, height, normal};
+use halfvector_maps::{blend, color, derivative, height, normal, octahedral, parallax};
 use halfvector_scene::light::{
     DirectionalLight, LightSample, PointLight, SpotLight, directional_light_sample, point_light_sample,
     spot_light_sample,
@@ -39,6 +39,9 @@ pub(crate) const WGSL_ONLY: &[(&str, &str)] = &[
     ("cos_sin_atan2", "private in Rust: compared through both normal_rotation functions"),
     ("dfg_from_table", "takes a texture"),
     ("environment_sample", "takes a texture"),
+    ("blended", "private in Rust: compared through the five blend functions"),
+    ("octahedral_folded", "private in Rust: compared through the octahedral functions"),
+    ("parallax_occlusion", "takes a texture; in Rust a function: compared with traced rays by the crate's tests"),
 ];
 
 /// Public functions of the twins' Rust files that WGSL has not, and why.
@@ -139,6 +142,20 @@ pub(crate) const TWINS: &[Twin] = &[
         let light = SpotLight { position: v(x, 0), intensity: v(x, 3), direction: v(x, 6), cos_scale_offset: v(x, 9) };
         sample(spot_light_sample(light, v(x, 11)))
     }),
+    twin!("maps/blend.wgsl" "blend_linear", [UnitUp, UnitUp], 16.0, 1.0, DOUBLE, |x| blend::blend_linear(v(x, 0), v(x, 3))),
+    twin!("maps/blend.wgsl" "blend_partial_derivatives", [UnitUp, UnitUp], 64.0, 1.0, DOUBLE, |x| blend::blend_partial_derivatives(v(x, 0), v(x, 3))),
+    twin!("maps/blend.wgsl" "blend_rnm", [UnitUp, Unit], 32.0, 1.0, DOUBLE, |x| blend::blend_rnm(v(x, 0), v(x, 3))),
+    twin!("maps/blend.wgsl" "blend_udn", [UnitUp, UnitUp], 64.0, 1.0, DOUBLE, |x| blend::blend_udn(v(x, 0), v(x, 3))),
+    twin!("maps/blend.wgsl" "blend_whiteout", [UnitUp, UnitUp], 64.0, 1.0, DOUBLE, |x| blend::blend_whiteout(v(x, 0), v(x, 3))),
+    twin!("maps/blend.wgsl" "normal_with_strength", [UnitUp, Range(-2.0, 2.0)], 16.0, 1.0, DOUBLE, |x| blend::normal_with_strength(v(x, 0), x[3])),
+    twin!("maps/blend.wgsl" "texel_from_normal", [Unit], 1.0, 0.0, DOUBLE, |x| blend::texel_from_normal(v(x, 0))),
+    twin!("maps/derivative.wgsl" "normal_from_slopes", [Range(-4.0, 4.0), Range(-4.0, 4.0)], 8.0, 1.0, DOUBLE, |x| derivative::normal_from_slopes(x[0], x[1])),
+    twin!("maps/derivative.wgsl" "normal_tbn_derivative", [UnitUp, Footprint, UvFootprint], 64.0, 1.0, DOUBLE, |x| {
+        derivative::normal_tbn_derivative(v(x, 0), v(x, 3), v(x, 6), v(x, 9), v(x, 12), v(x, 14))
+    }),
+    twin!("maps/derivative.wgsl" "tangent_from_derivatives", [Footprint, UvFootprint], 64.0, 1.0, DOUBLE, |x| {
+        derivative::tangent_from_derivatives(v(x, 0), v(x, 3), v(x, 6), v(x, 9), v(x, 11))
+    }),
     twin!("maps/height.wgsl" "displaced", [Point(10.0), Unit, Range(-1.0, 1.0)], 2.0, 1.0, DOUBLE, |x| height::displaced(v(x, 0), v(x, 3), x[6])),
     twin!("maps/height.wgsl" "normal_from_height", [Footprint, Range(-0.01, 0.01), Range(-0.01, 0.01)], 32.0, 1.0, DOUBLE, |x| {
         height::normal_from_height(v(x, 0), v(x, 3), v(x, 6), x[9], x[10])
@@ -148,6 +165,10 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("maps/normal.wgsl" "normal_rotation_report", [Unit, Vector], 16.0, 1.0, DOUBLE, |x| normal::normal_rotation_report(v(x, 0), v(x, 3))),
     twin!("maps/normal.wgsl" "normal_tbn", [UnitUp, Unit, TangentOfLast], 32.0, 1.0, DOUBLE, |x| normal::normal_tbn(v(x, 0), v(x, 3), v(x, 6))),
     twin!("maps/normal.wgsl" "tangent_from_normal", [Unit], 8.0, 1.0, DOUBLE, |x| normal::tangent_from_normal(v(x, 0))),
+    twin!("maps/octahedral.wgsl" "direction_from_octahedral", [Pair(-1.0, 1.0)], 8.0, 1.0, DOUBLE, |x| octahedral::direction_from_octahedral(v(x, 0))),
+    twin!("maps/octahedral.wgsl" "octahedral_from_direction", [Unit], 8.0, 1.0, DOUBLE, |x| octahedral::octahedral_from_direction(v(x, 0))),
+    // At grazing incidence the way is 20 times the depth, and the cosine that it is divided by a difference.
+    twin!("maps/parallax.wgsl" "parallax_offset", [Unit, Unit, TangentOfLast, Range(0.0, 0.2)], 128.0, 4.0, DOUBLE, |x| parallax::parallax_offset(v(x, 0), v(x, 3), v(x, 6), x[10])),
     twin!("math.wgsl" "finite_or_zero", [Color(-1e38, 1e38)], 0.0, 0.0, DOUBLE, |x| math::finite_or_zero(v(x, 0))),
     twin!("math.wgsl" "normalize_or", [Vector, Unit], 6.0, 0.0, DOUBLE, |x| math::normalize_or(v(x, 0), v(x, 3))),
     twin!("math.wgsl" "pow5", [Range(-2.0, 2.0)], 3.0, 0.0, DOUBLE, |x| [math::pow5(x[0])]),

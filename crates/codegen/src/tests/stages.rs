@@ -95,7 +95,7 @@ fn only_tbn_reads_tangents() {
     };
     let has_tangent = |shader: &Shader| shader.reflection.vertex_inputs.iter().any(|i| i.name == "tangent");
     assert!(has_tangent(&with("tbn")));
-    for method in ["rotation_report", "rotation_fixed"] {
+    for method in ["tbn_derivative", "rotation_report", "rotation_fixed"] {
         let shader = with(method);
         assert!(!has_tangent(&shader) && shader.wgsl.contains(&format!("normal_{method}(")), "{method}");
     }

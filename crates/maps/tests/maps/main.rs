@@ -1,10 +1,13 @@
 //! What the crate promises, from outside: hard cases, exhaustive texels, files, mip chains, tangents, angle errors.
 
 mod angle_error;
+mod batch;
+mod blend;
 mod decode;
 mod exhaustive;
 mod hard_cases;
 mod mip;
+mod relief;
 mod tangents;
 
 use halfvector_maps::Real;

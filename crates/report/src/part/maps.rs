@@ -1,0 +1,174 @@
+//! Normal mapping: the angle between what each method makes of a texel and what the texel says, from the table that the
+//! tests of `halfvector-maps` hold (`data/normal_angle.csv`); blends of two normal maps against the sum of their height
+//! fields; and what one texel costs, alone and in a batch.
+
+use halfvector_maps::batch;
+use halfvector_maps::blend::{blend_linear, blend_partial_derivatives, blend_rnm, blend_udn, blend_whiteout};
+use halfvector_maps::derivative::{normal_from_slopes, normal_tbn_derivative};
+use halfvector_maps::normal::{normal_rotation_fixed, normal_rotation_report, normal_tbn};
+
+use crate::error::Errors;
+use crate::timing::interleaved;
+use crate::{Effort, Row};
+
+/// normal, method, tilt [deg], mean, rms and largest error [deg].
+const ANGLES: &str = include_str!("../../data/normal_angle.csv");
+
+/// Measures the part.
+pub fn rows(effort: Effort) -> Vec<Row> {
+    let mut rows = methods(effort);
+    rows.extend(blends(effort));
+    rows
+}
+
+/// Numbers in -1..1 that come out the same on every run.
+fn numbers(count: usize, seed: u32) -> Vec<f32> {
+    let mut state = seed;
+    let mut next = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as f32 / (1 << 23) as f32 - 1.0
+    };
+    (0..count).map(|_| next()).collect()
+}
+
+/// Costs of a method [ns]: alone, and in a batch where there is one.
+struct Cost {
+    method: &'static str,
+    single: f64,
+    batch: Option<f64>,
+}
+
+type Run<'a> = Box<dyn FnMut() -> f64 + 'a>;
+
+/// Calls `f` for every texel.
+fn single<'a>(count: usize, f: impl Fn(usize) -> [f32; 3] + 'a) -> Run<'a> {
+    Box::new(move || (0..count).map(|i| f64::from(f(i)[0])).sum())
+}
+
+/// Calls `f` once for all texels.
+fn whole<'a>(count: usize, f: impl Fn([&mut [f32]; 3]) + 'a) -> Run<'a> {
+    let mut out: [Vec<f32>; 3] = std::array::from_fn(|_| vec![0.0; count]);
+    Box::new(move || {
+        f(out.each_mut().map(Vec::as_mut_slice));
+        f64::from(out[0][count / 2])
+    })
+}
+
+fn costs(effort: Effort) -> Vec<Cost> {
+    let count = effort.pick(1 << 12, 1 << 14);
+    let arrays: [Vec<f32>; 10] = std::array::from_fn(|k| numbers(count, k as u32));
+    let a = arrays.each_ref().map(Vec::as_slice);
+    let (n_tangent, normal, tangent) = ([a[0], a[1], a[2]], [a[3], a[4], a[5]], [a[6], a[7], a[8], a[9]]);
+    let n_at = |i: usize| n_tangent.map(|a| a[i]);
+    let normal_at = |i: usize| normal.map(|a| a[i]);
+    let mut runs = [
+        single(count, |i| normal_tbn(n_at(i), normal_at(i), tangent.map(|a| a[i]))),
+        single(count, |i| {
+            let [x, y, z, w] = tangent.map(|a| a[i]);
+            normal_tbn_derivative(n_at(i), [x, y, z], [w, z, y], normal_at(i), [x, w], [y, z])
+        }),
+        single(count, |i| normal_rotation_report(n_at(i), normal_at(i))),
+        single(count, |i| normal_rotation_fixed(n_at(i), normal_at(i))),
+        whole(count, |out| batch::normals_tbn(n_tangent, normal, tangent, out)),
+        whole(count, |out| batch::normals_rotation_report(n_tangent, normal, out)),
+        whole(count, |out| batch::normals_rotation_fixed(n_tangent, normal, out)),
+    ];
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+    let seconds = interleaved(&mut candidates, effort.pick(20, 200));
+    let ns = |i: usize| seconds[i] * 1e9 / count as f64;
+    vec![
+        Cost { method: "tbn", single: ns(0), batch: Some(ns(4)) },
+        Cost { method: "tbn_derivative", single: ns(1), batch: None },
+        Cost { method: "rotation_report", single: ns(2), batch: Some(ns(5)) },
+        Cost { method: "rotation_fixed", single: ns(3), batch: Some(ns(6)) },
+    ]
+}
+
+/// Each method on each normal: the largest and the mean square of the table's lines.
+fn methods(effort: Effort) -> Vec<Row> {
+    let costs = costs(effort);
+    let mut rows: Vec<Row> = Vec::new();
+    let mut tilts = 0.0;
+    for line in ANGLES.lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let [normal, method, tilt, _, rms, max] = fields[..] else { continue };
+        let number = |text: &str| text.parse::<f64>().unwrap_or(f64::NAN);
+        let domain = format!("normal {normal}, texels of tilt 0..85 deg, all azimuths; angle to the truth in degrees");
+        if rows.last().is_none_or(|row| row.method != method || row.domain != domain) {
+            let mut row = Row::new("normal", method, &domain);
+            if let Some(cost) = costs.iter().find(|cost| cost.method == method) {
+                (row.cost_ns, row.cost_batch_ns) = (Some(cost.single), cost.batch);
+            }
+            rows.push(row);
+            tilts = 0.0;
+        }
+        let Some(row) = rows.last_mut() else { continue };
+        if row.error_max.is_none_or(|known| number(max) > known) {
+            (row.error_max, row.at) = (Some(number(max)), Some(format!("tilt {tilt} deg")));
+        }
+        let squares = row.error_rms.map_or(0.0, |rms| rms * rms * tilts);
+        tilts += 1.0;
+        row.error_rms = Some(((squares + number(rms) * number(rms)) / tilts).sqrt());
+    }
+    rows
+}
+
+/// Blends of a base of slopes up to 1.3 with a detail of slopes up to 0.7, against the normal of the sum of the slopes.
+fn blends(effort: Effort) -> Vec<Row> {
+    const DOMAIN: &str = "base slopes to 1.3, detail slopes to 0.7; angle to the sum of the heights in degrees";
+    type Blend = fn([f32; 3], [f32; 3]) -> [f32; 3];
+    const BLENDS: [(&str, Blend); 5] = [
+        ("rnm", blend_rnm),
+        ("partial_derivatives", blend_partial_derivatives),
+        ("whiteout", blend_whiteout),
+        ("udn", blend_udn),
+        ("linear", blend_linear),
+    ];
+    let count = effort.pick(1 << 12, 1 << 14);
+    let slopes: [Vec<f32>; 4] = std::array::from_fn(|k| numbers(count, 100 + k as u32));
+    let at = |i: usize| [1.3 * slopes[0][i], 1.3 * slopes[1][i], 0.7 * slopes[2][i], 0.7 * slopes[3][i]];
+    let pairs: Vec<_> = (0..count)
+        .map(|i| {
+            let [a, b, c, d] = at(i);
+            (normal_from_slopes(a, b), normal_from_slopes(c, d))
+        })
+        .collect();
+    let mut runs: Vec<_> = BLENDS
+        .iter()
+        .map(|(_, blend)| || pairs.iter().map(|&(base, detail)| f64::from(blend(base, detail)[0])).sum::<f64>())
+        .collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+    let seconds = interleaved(&mut candidates, effort.pick(20, 200));
+    let measured = BLENDS.iter().zip(seconds);
+    measured
+        .map(|((name, blend), seconds)| {
+            let mut errors = Errors::default();
+            for (i, &(base, detail)) in pairs.iter().enumerate() {
+                let slopes = at(i).map(f64::from);
+                let truth = normal_from_slopes(slopes[0] + slopes[2], slopes[1] + slopes[3]);
+                let n = blend(base, detail).map(f64::from);
+                let difference = (0..3).map(|k| (n[k] - truth[k]).powi(2)).sum::<f64>().sqrt();
+                errors.add(2.0 * (0.5 * difference).min(1.0).asin().to_degrees(), || format!("slopes {slopes:?}"));
+            }
+            let mut row = Row::new("normal_blend", name, DOMAIN);
+            errors.fill(&mut row);
+            row.cost_ns = Some(seconds * 1e9 / count as f64);
+            row
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_method_has_a_row_on_every_normal() {
+        let rows = methods(Effort::Quick);
+        assert_eq!(rows.len(), 20);
+        assert!(rows.iter().all(|r| r.error_max >= r.error_rms && r.cost_ns.is_some()), "{rows:?}");
+        let tbn = rows.iter().find(|r| r.method == "tbn").expect("a row");
+        assert!(tbn.error_max < Some(1e-5));
+        assert!(blends(Effort::Quick).iter().any(|r| r.method == "partial_derivatives" && r.error_max < Some(1e-3)));
+    }
+}

@@ -1,0 +1,163 @@
+//! The rows of the hard-case catalogue about normals, tangents and texture coordinates, on the GPU in f32 and f64; all texels
+//! of an 8-bit map; and arguments that are no numbers.
+
+use super::domain::Numbers;
+use super::gpu::{Gpu, Number, library};
+
+/// A row: its name in the catalogue, the function that answers it, its arguments, and whether the answer is right.
+struct Row {
+    name: &'static str,
+    function: &'static str,
+    arguments: &'static [f32],
+    is_right: fn(&[f64]) -> bool,
+}
+
+const fn row(
+    name: &'static str,
+    function: &'static str,
+    arguments: &'static [f32],
+    is_right: fn(&[f64]) -> bool,
+) -> Row {
+    Row { name, function, arguments, is_right }
+}
+
+fn degrees(a: &[f64], b: [f64; 3]) -> f64 {
+    let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    let lengths = a[..3].iter().map(|a| a * a).sum::<f64>() * b.iter().map(|b| b * b).sum::<f64>();
+    (dot / lengths.sqrt()).clamp(-1.0, 1.0).acos().to_degrees()
+}
+
+fn is_near(a: &[f64], b: [f64; 3]) -> bool {
+    is_unit(a) && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-5)
+}
+
+fn is_unit(a: &[f64]) -> bool {
+    (a[..3].iter().map(|a| a * a).sum::<f64>() - 1.0).abs() < 1e-5
+}
+
+/// Unit, and as far from +Z as the texel (.6, 0, .8).
+fn keeps_tilt(a: &[f64]) -> bool {
+    is_unit(a) && (a[2] - 0.8).abs() < 1e-5
+}
+
+fn is_tangent_of(a: &[f64], normal: [f64; 3]) -> bool {
+    is_unit(a) && a.iter().zip(normal).map(|(a, n)| a * n).sum::<f64>().abs() < 1e-5
+}
+
+#[rustfmt::skip]
+const ROWS: &[Row] = &[
+    row("degenerate UV", "tangent_from_derivatives", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0], |a| a[..3] == [0.0; 3]),
+    row("degenerate UV", "normal_tbn_derivative", &[0.6, 0.0, 0.8, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0], keeps_tilt),
+    row("near-degenerate UV", "tangent_from_derivatives", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 7.071e-7, 0.0, 0.0, -7.071e-7], |a| is_near(a, [1.0, 0.0, 0.0]) && a[3] == 1.0),
+    row("mirrored UV", "normal_tbn", &[0.0, 0.6, 0.8, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, -1.0], |a| is_near(a, [0.0, -0.6, 0.8])),
+    row("mirrored UV", "tangent_from_derivatives", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, -1.0], |a| is_near(a, [-1.0, 0.0, 0.0]) && a[3] == -1.0),
+    row("tangent || normal", "normal_tbn", &[0.6, 0.0, 0.8, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0], keeps_tilt),
+    row("tangent || normal", "normal_tbn", &[0.6, 0.0, 0.8, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], keeps_tilt),
+    row("Frisvad basis", "tangent_from_normal", &[0.0, 0.0, -1.0], |a| is_tangent_of(a, [0.0, 0.0, -1.0])),
+    row("Frisvad basis", "tangent_from_normal", &[0.000_488_3, 0.0, -0.999_999_9], |a| is_tangent_of(a, [0.000_488_3, 0.0, -0.999_999_9])),
+    row("Frisvad basis", "tangent_from_normal", &[0.000_345_3, 0.0, -0.999_999_94], |a| is_tangent_of(a, [0.000_345_3, 0.0, -0.999_999_94])),
+    row("normal texel zero", "normal_from_texel", &[0.5, 0.5, 0.5, 1.0, 0.0], |a| *a == [0.0, 0.0, 1.0]),
+    row("normal texel 8-bit flat", "normal_from_texel", &[128.0 / 255.0, 128.0 / 255.0, 1.0, 1.0, 0.0], |a| is_unit(a) && (degrees(a, [0.0, 0.0, 1.0]) - 0.318).abs() < 0.005),
+    // ax = az = atan(.6 / 0), ay = atan(.4 / 0): half turns by halves, (0, 0, 1) -> (0, -1, 0) -> (0, -1, 0) -> (1, 0, 0).
+    row("normal z=0 rotation", "normal_rotation_report", &[0.4, 0.6, 0.0, 0.0, 0.0, 1.0], |a| is_near(a, [1.0, 0.0, 0.0])),
+    row("normal z=0 rotation", "normal_rotation_report", &[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.0, 0.0, 1.0])),
+    row("normal z=0 rotation", "normal_rotation_fixed", &[0.0, 0.6, 0.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.0, 1.0, 0.0])),
+    row("normal z=0 rotation", "normal_tbn", &[0.6, 0.8, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.6, 0.8, 0.0])),
+    // The report's atan loses the quadrant, the mended one keeps it.
+    row("normal z<0 rotation", "normal_rotation_report", &[0.3, 0.4, -0.5, 0.0, 0.0, 1.0], |a| is_unit(a) && a[2] > 0.0),
+    row("normal z<0 rotation", "normal_rotation_fixed", &[0.3, 0.4, -0.5, 0.0, 0.0, 1.0], |a| is_unit(a) && a[2] < 0.0),
+    row("rotation method accuracy", "normal_rotation_fixed", &[0.6, 0.6, 0.529_150_25, 0.0, 0.0, 1.0], |a| is_near(a, [0.496_078_37, 0.75, 0.4375]) && (degrees(a, [0.6, 0.6, 0.529_150_25]) - 11.72).abs() < 0.01),
+    row("rotation method accuracy", "normal_tbn", &[0.6, 0.6, 0.529_150_25, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.6, 0.6, 0.529_150_25])),
+    row("non-unit interpolated n", "normal_tbn", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.707_106_77, 1.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.0, 0.0, 1.0])),
+    row("opposed interpolated n", "normal_tbn", &[0.6, 0.0, 0.8, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0], keeps_tilt),
+    row("opposed interpolated n", "normal_rotation_report", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], |a| is_near(a, [0.0, 0.0, 1.0])),
+    row("opposed interpolated n", "normal_rotation_fixed", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], |a| is_near(a, [0.0, 0.0, 1.0])),
+];
+
+fn check<N: Number>(gpu: &Gpu) {
+    let module = library();
+    for row in ROWS {
+        let answer = gpu.call::<N>(&module, row.function, row.arguments).values;
+        assert!((row.is_right)(&answer), "{}: {} in {} bits: {answer:?}", row.name, row.function, 8 * size_of::<N>());
+    }
+}
+
+#[test]
+fn rows_about_normals_in_f32() {
+    let Some(gpu) = Gpu::open() else { return };
+    check::<f32>(&gpu);
+}
+
+#[test]
+fn rows_about_normals_in_f64() {
+    let Some(gpu) = Gpu::open() else { return };
+    if !gpu.has_f64 {
+        println!("skipped: {} has no f64", gpu.name);
+        return;
+    }
+    check::<f64>(&gpu);
+}
+
+/// Panics where a function's answer is not unit.
+fn all_unit(gpu: &Gpu, module: &naga::Module, function: &str, arguments: &[f32]) -> Vec<f32> {
+    let results = gpu.call::<f32>(module, function, arguments);
+    for (row, value) in results.values.chunks_exact(results.results).enumerate() {
+        let input = || &arguments[row * results.arguments..][..results.arguments];
+        assert!(is_unit(value), "{}: {function} of {:?} is {value:?}", gpu.name, input());
+    }
+    results.values.iter().map(|x| *x as f32).collect()
+}
+
+/// Every red and green of an 8-bit map, with the blues that matter, through every method.
+#[test]
+fn every_8_bit_texel_is_unit_on_the_gpu() {
+    let Some(gpu) = Gpu::open() else { return };
+    let module = library();
+    let texels = (0..1_u32 << 16).flat_map(|code| [0, 127, 128, 255].map(|b| [code & 255, code >> 8, b]));
+    let colors = texels.map(|t| t.map(|c| c as f32 / 255.0));
+    let arguments: Vec<f32> = colors.flat_map(|[r, g, b]| [r, g, b, 1.0, 0.0]).collect();
+    let normals = all_unit(&gpu, &module, "normal_from_texel", &arguments);
+    let frames = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.267_261_24, -0.534_522_5, 0.801_783_7]];
+    for function in ["normal_rotation_report", "normal_rotation_fixed", "normal_tbn"] {
+        let tangent: &[f32] = if function == "normal_tbn" { &[0.6, 0.0, -0.8, -1.0] } else { &[] };
+        let with_frame = normals.chunks_exact(3).enumerate();
+        let arguments: Vec<f32> = with_frame.flat_map(|(i, n)| [n, &frames[i / 4 % 4], tangent].concat()).collect();
+        all_unit(&gpu, &module, function, &arguments);
+    }
+}
+
+/// Whatever a buffer or a texture holds by mistake.
+#[test]
+fn normals_of_any_bits_are_unit() {
+    let Some(gpu) = Gpu::open() else { return };
+    let module = library();
+    let special = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, -0.0, 1.0, -1.0, f32::MAX, f32::MIN, 1e-40, 0.5];
+    let functions = [
+        ("normal_from_texel", 5),
+        ("normal_tbn", 10),
+        ("normal_rotation_report", 6),
+        ("normal_rotation_fixed", 6),
+        ("normal_tbn_derivative", 16),
+        ("normal_from_slopes", 2),
+        ("normal_with_strength", 4),
+        ("blend_linear", 6),
+        ("blend_partial_derivatives", 6),
+        ("blend_rnm", 6),
+        ("blend_udn", 6),
+        ("blend_whiteout", 6),
+        ("direction_from_octahedral", 2),
+    ];
+    for (function, count) in functions {
+        let mut numbers = Numbers::new(function);
+        let mut draw = || {
+            let bits = numbers.bits();
+            match bits % 4 {
+                0 => f32::from_bits((bits >> 32) as u32),
+                1 => special[(bits >> 8) as usize % special.len()],
+                _ => (bits >> 40) as f32 / (1 << 24) as f32 * 2.0 - 1.0,
+            }
+        };
+        let arguments: Vec<f32> = (0..count << 14).map(|_| draw()).collect();
+        all_unit(&gpu, &module, function, &arguments);
+    }
+}
