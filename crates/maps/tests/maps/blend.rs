@@ -214,6 +214,9 @@ fn f16(x: f64) -> f64 {
     half::f16::from_f64(x).to_f64()
 }
 
+/// What becomes of a direction that is stored and read again.
+type Store<'a> = &'a dyn Fn([f64; 3]) -> [f64; 3];
+
 /// What N and T lose in few bits, in degrees: the stored vector, and the mapped normal when both are stored. T needs no
 /// more than N: an error of either turns the result by about as much.
 #[test]
@@ -221,7 +224,7 @@ fn frames_in_few_bits() {
     let octahedral =
         |bits: u32| move |n: [f64; 3]| direction_from_octahedral(octahedral_from_direction(n).map(|x| snorm(x, bits)));
     let octahedral_f16 = |n: [f64; 3]| direction_from_octahedral(octahedral_from_direction(n).map(f16));
-    let stores: [(&str, u32, &dyn Fn([f64; 3]) -> [f64; 3], f64); 6] = [
+    let stores: [(&str, u32, Store<'_>, f64); 6] = [
         ("three f16", 48, &|n: [f64; 3]| n.map(f16), 0.03),
         ("three snorm16", 48, &|n: [f64; 3]| n.map(|x| snorm(x, 16)), 0.0016),
         ("three snorm8", 24, &|n: [f64; 3]| n.map(|x| snorm(x, 8)), 0.4),
