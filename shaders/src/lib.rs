@@ -28,6 +28,8 @@ macro_rules! files {
 
 /// All files, sorted by path. A tidy test holds this list against the folder.
 pub const FILES: &[File] = files![
+    "brdf/anisotropic.wgsl",
+    "brdf/beckmann.wgsl",
     "brdf/dfg.wgsl",
     "brdf/diffuse.wgsl",
     "brdf/frame.wgsl",
@@ -37,6 +39,9 @@ pub const FILES: &[File] = files![
     "brdf/lobe_specular.wgsl",
     "brdf/metallic_roughness.wgsl",
     "brdf/multiscatter.wgsl",
+    "brdf/sheen.wgsl",
+    "brdf/thin_film.wgsl",
+    "brdf/visibility.wgsl",
     "color.wgsl",
     "entry/background.wgsl",
     "entry/bake.wgsl",

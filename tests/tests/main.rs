@@ -6,6 +6,7 @@ mod device;
 mod docs;
 mod golden;
 mod images;
+mod methods;
 mod normal_tangent;
 mod support;
 mod tidy;

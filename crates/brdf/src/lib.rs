@@ -1,4 +1,4 @@
-//! BRDF math: Fresnel, GGX, diffuse, split-sum terms and the lobes made of them, generic over `f32` and `f64`.
+//! BRDF math: Fresnel, GGX, Beckmann, cloth, diffuse, thin films, split-sum terms and the lobes made of them, generic over `f32` and `f64`.
 //!
 //! Each function has a twin of the same file, name, argument order and unit in the WGSL library (`shaders/brdf/*.wgsl`
 //! and `shaders/math.wgsl`); a test holds them together. [`sampling`] alone has none.
@@ -9,6 +9,8 @@
 //! Nothing here panics. Each function names its domain, where it never returns NaN, an infinity or a negative number;
 //! the lobes (`*_eval`, `*_environment`) return finite numbers for any input whatever.
 
+pub mod anisotropic;
+pub mod beckmann;
 pub mod dfg;
 pub mod diffuse;
 pub mod frame;
@@ -21,6 +23,9 @@ pub mod metallic_roughness;
 pub mod multiscatter;
 mod real;
 pub mod sampling;
+pub mod sheen;
+pub mod thin_film;
 pub mod vector;
+pub mod visibility;
 
 pub use real::{Real, Scalar};

@@ -34,7 +34,14 @@ pub const TERMS: &[Term] = &[
     Term {
         name: "d",
         help: "distribution of microfacet normals",
-        methods: &[method("ggx", Some("d_ggx"), "Walter et al. 2007, with |n x h|^2 instead of 1 - (n.h)^2")],
+        methods: &[
+            method("ggx", Some("d_ggx"), "Walter et al. 2007, with |n x h|^2 instead of 1 - (n.h)^2"),
+            method(
+                "beckmann",
+                Some("d_beckmann"),
+                "Beckmann and Spizzichino 1963, Cook and Torrance 1982: Gaussian slopes",
+            ),
+        ],
         report: "ggx",
     },
     Term {
@@ -43,6 +50,21 @@ pub const TERMS: &[Term] = &[
         methods: &[
             method("correlated", Some("v_smith_ggx_correlated"), "Heitz 2014, height-correlated Smith"),
             method("separable", Some("v_smith_ggx_separable"), "Walter et al. 2007, G1(v) G1(l)"),
+            method("hammon", Some("v_hammon"), "Hammon 2017: the correlated form without square roots"),
+            method("schlick_smith", Some("v_schlick_smith"), "Schlick 1994, Karis 2013: k = (roughness + 1)^2 / 8"),
+            method("cook_torrance", Some("v_cook_torrance"), "Torrance and Sparrow 1967: V-shaped grooves"),
+            method("kelemen", Some("v_kelemen"), "Kelemen and Szirmay-Kalos 2001: 1 / (4 (l.h)^2)"),
+            method("neubelt", Some("v_neubelt"), "Neubelt and Pettineo 2013: for cloth"),
+            method(
+                "beckmann_correlated",
+                Some("v_smith_beckmann_correlated"),
+                "Heitz 2014, Walter's fit of Beckmann's Lambda",
+            ),
+            method(
+                "beckmann_separable",
+                Some("v_smith_beckmann_separable"),
+                "Walter et al. 2007: G1(v) G1(l) for Beckmann",
+            ),
         ],
         report: "separable",
     },
@@ -61,6 +83,9 @@ pub const TERMS: &[Term] = &[
         methods: &[
             method("lambert", Some("diffuse_lambert"), "Lambert 1760"),
             method("burley", Some("diffuse_burley"), "Burley 2012"),
+            method("oren_nayar", Some("diffuse_oren_nayar"), "Oren and Nayar 1994, qualitative form"),
+            method("fon", Some("diffuse_fon"), "Fujii's Oren-Nayar, Portsmouth et al. 2025"),
+            method("eon", Some("diffuse_eon"), "Portsmouth, Kutz, Hill 2025: Fujii's Oren-Nayar, keeps energy"),
         ],
         report: "lambert",
     },

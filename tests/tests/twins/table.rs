@@ -4,7 +4,10 @@
 use halfvector_brdf::frame::{Frame, frame_from_normal, half_from_light};
 use halfvector_brdf::lobe_diffuse::{Diffuse, diffuse_environment, diffuse_eval};
 use halfvector_brdf::lobe_specular::{Specular, specular_environment, specular_eval};
-use halfvector_brdf::{dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter};
+use halfvector_brdf::{
+    anisotropic, beckmann, dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter, sheen, thin_film,
+    visibility,
+};
 use halfvector_ibl::environment;
 use halfvector_maps::{blend, color, derivative, height, normal, octahedral, parallax};
 use halfvector_scene::light::{
@@ -35,23 +38,39 @@ pub(crate) struct Twin {
 
 /// Library functions of WGSL without a twin that can be called, and why.
 pub(crate) const WGSL_ONLY: &[(&str, &str)] = &[
+    ("blended", "private in Rust: compared through the five blend functions"),
     ("cos_sin_atan", "private in Rust: compared through normal_rotation_report"),
     ("cos_sin_atan2", "private in Rust: compared through both normal_rotation functions"),
     ("dfg_from_table", "takes a texture"),
     ("environment_sample", "takes a texture"),
-    ("blended", "private in Rust: compared through the five blend functions"),
+    ("film_channel", "private in Rust: compared through f_thin_film"),
+    ("film_lobe", "private in Rust: compared through f_thin_film"),
+    ("film_quotient", "private in Rust: compared through f_thin_film"),
+    ("film_series", "private in Rust: compared through f_thin_film"),
+    ("film_tones", "private in Rust: compared through f_thin_film"),
+    ("fon", "private in Rust: compared through diffuse_fon"),
+    ("fon_g_over_pi_fit", "private in Rust: compared through directional_albedo_fon"),
+    ("fon_scale", "private in Rust: compared through diffuse_fon"),
+    ("fujii_ratio", "private in Rust: compared through diffuse_fon and diffuse_oren_nayar"),
+    ("masked_cosine", "private in Rust: compared through both v_smith_beckmann functions"),
     ("octahedral_folded", "private in Rust: compared through the octahedral functions"),
     ("parallax_occlusion", "takes a texture; in Rust a function: compared with traced rays by the crate's tests"),
 ];
 
 /// Public functions of the twins' Rust files that WGSL has not, and why.
 pub(crate) const RUST_ONLY: &[(&str, &str)] = &[
+    ("diffuse_eon_exact", "the truth of diffuse_eon's polynomial; a GPU's arc cosine has 4096 ulp"),
+    ("directional_albedo_fon_exact", "the truth of the polynomial; a GPU's arc cosine has 4096 ulp"),
+    ("f_f82_tint_of_complement", "the equation without its clamp, for who measures it"),
+    ("f_schlick_of_complement", "for who has 1 - l.h without cancellation, which a shader has not"),
     ("lights_by_kind", "sorts a scene's lights for the uniform buffer"),
+    ("n_dot_w_lambda_beckmann", "the truth of Walter's fit, 27 Chebyshev terms"),
     ("parse_light", "reads the command line"),
     ("spot_cos_scale_offset", "makes a uniform once, from angles"),
     ("spot_effective_solid_angle", "turns lumens into candela when a file is read"),
     ("tone_map_from_name", "reads the command line"),
     ("tone_mapped", "chooses a tone map by name; a shader is linked with the one it needs"),
+    ("v_smith_beckmann_exact", "the truth of Walter's fit, 27 Chebyshev terms"),
 ];
 
 const FLOAT: bool = false;
@@ -91,10 +110,24 @@ fn sample(s: LightSample<f64>) -> [f64; 6] {
 /// All twins, by file.
 #[rustfmt::skip]
 pub(crate) const TWINS: &[Twin] = &[
+    twin!("brdf/anisotropic.wgsl" "d_ggx_anisotropic", [UnitUp, Alpha, Alpha], 16.0, 0.0, DOUBLE, |x| [anisotropic::d_ggx_anisotropic(v(x, 0), x[3], x[4])]),
+    twin!("brdf/anisotropic.wgsl" "v_smith_ggx_anisotropic", [UnitUp, UnitUp, Alpha, Alpha], 10.0, 0.0, DOUBLE, |x| [anisotropic::v_smith_ggx_anisotropic(v(x, 0), v(x, 3), x[6], x[7])]),
+    // exp2 and log2: the error of a power is its own logarithm times that of the exponent.
+    twin!("brdf/beckmann.wgsl" "d_beckmann", [HalfAngle, Alpha], 512.0, 1e-30, FLOAT, |x| [beckmann::d_beckmann(x[0], x[1], x[2])]),
+    // Where Walter's fit goes to 0, at a = 1.6, it is a difference.
+    twin!("brdf/beckmann.wgsl" "v_smith_beckmann_correlated", [Cosine, Cosine, Cosine, Alpha], 32.0, 0.0, DOUBLE, |x| [beckmann::v_smith_beckmann_correlated(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/beckmann.wgsl" "v_smith_beckmann_separable", [Cosine, Cosine, Cosine, Alpha], 32.0, 0.0, DOUBLE, |x| [beckmann::v_smith_beckmann_separable(x[0], x[1], x[2], x[3])]),
     twin!("brdf/dfg.wgsl" "dfg_karis", [Cosine, Roughness], 16.0, 1.0, FLOAT, |x| dfg::dfg_karis(x[0], x[1])),
     twin!("brdf/dfg.wgsl" "specular_albedo", [Reflectances(1.0), Pair(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| dfg::specular_albedo(v(x, 0), v(x, 3), v(x, 6))),
+    twin!("brdf/diffuse.wgsl" "average_albedo_fon", [Roughness], 4.0, 0.0, DOUBLE, |x| [diffuse::average_albedo_fon(x[0])]),
     twin!("brdf/diffuse.wgsl" "diffuse_burley", [Color(0.0, 1.0), Cosine, Cosine, Cosine, Roughness], 8.0, 0.0, DOUBLE, |x| diffuse::diffuse_burley(v(x, 0), x[3], x[4], x[5], x[6])),
+    // The rounding of v.l = 2 (l.h)^2 - 1 counts 1 / max(n.v, n.l) times: cosines from 0.05 here, all in the points' test.
+    twin!("brdf/diffuse.wgsl" "diffuse_eon", [Color(0.0, 1.0), Range(0.05, 1.0), Range(0.05, 1.0), Range(0.0, 1.0), Roughness], 64.0, 1.0, DOUBLE, |x| diffuse::diffuse_eon(v(x, 0), x[3], x[4], x[5], x[6])),
+    twin!("brdf/diffuse.wgsl" "diffuse_fon", [Color(0.0, 1.0), Range(0.05, 1.0), Range(0.05, 1.0), Range(0.0, 1.0), Roughness], 64.0, 1.0, DOUBLE, |x| diffuse::diffuse_fon(v(x, 0), x[3], x[4], x[5], x[6])),
     twin!("brdf/diffuse.wgsl" "diffuse_lambert", [Color(0.0, 1.0), Cosine, Cosine, Cosine, Roughness], 2.0, 0.0, DOUBLE, |x| diffuse::diffuse_lambert(v(x, 0), x[3], x[4], x[5], x[6])),
+    twin!("brdf/diffuse.wgsl" "diffuse_oren_nayar", [Color(0.0, 1.0), Range(0.05, 1.0), Range(0.05, 1.0), Range(0.0, 1.0), Roughness], 64.0, 1.0, DOUBLE, |x| diffuse::diffuse_oren_nayar(v(x, 0), x[3], x[4], x[5], x[6])),
+    twin!("brdf/diffuse.wgsl" "directional_albedo_eon", [Color(0.0, 1.0), Cosine, Roughness], 12.0, 0.0, DOUBLE, |x| diffuse::directional_albedo_eon(v(x, 0), x[3], x[4])),
+    twin!("brdf/diffuse.wgsl" "directional_albedo_fon", [Cosine, Roughness], 6.0, 0.0, DOUBLE, |x| [diffuse::directional_albedo_fon(x[0], x[1])]),
     twin!("brdf/frame.wgsl" "frame_from_normal", [Unit, Unit], 2.0, 1.0, DOUBLE, |x| {
         let f = frame_from_normal(v(x, 0), v(x, 3));
         [x[0], x[1], x[2], x[3], x[4], x[5], f.n_dot_v]
@@ -104,10 +137,13 @@ pub(crate) const TWINS: &[Twin] = &[
         [h.n_dot_l, h.n_dot_h, h.l_dot_h, h.sin2_theta_h]
     }),
     twin!("brdf/fresnel.wgsl" "f0_from_ior", [Range(1.0, 3.0)], 6.0, 0.0, DOUBLE, |x| [fresnel::f0_from_ior(x[0])]),
+    twin!("brdf/fresnel.wgsl" "f_conductor", [Range(0.05, 4.0), Range(0.0, 8.0), Cosine], 64.0, 0.02, DOUBLE, |x| [fresnel::f_conductor(x[0], x[1], x[2])]),
     twin!("brdf/fresnel.wgsl" "f_dielectric", [Range(0.3, 4.0), Cosine], 32.0, 0.01, DOUBLE, |x| [fresnel::f_dielectric(x[0], x[1])]),
     // f0 / f90 nearer to 1 is the index of a metal: eta there has 1 / (1 - f0/f90) times the rounding of the ratio.
     twin!("brdf/fresnel.wgsl" "f_exact", [Reflectances(0.9), Cosine], 64.0, 0.02, DOUBLE, |x| fresnel::f_exact(v(x, 0), v(x, 3), x[6])),
+    twin!("brdf/fresnel.wgsl" "f_f82_tint", [Color(0.0, 1.0), Color(0.0, 1.0), Cosine], 48.0, 0.1, DOUBLE, |x| fresnel::f_f82_tint(v(x, 0), v(x, 3), x[6])),
     twin!("brdf/fresnel.wgsl" "f_schlick", [Reflectances(1.0), Cosine], 8.0, 0.02, DOUBLE, |x| fresnel::f_schlick(v(x, 0), v(x, 3), x[6])),
+    twin!("brdf/fresnel.wgsl" "ior_from_f0", [Range(0.0, 0.9)], 8.0, 0.0, DOUBLE, |x| [fresnel::ior_from_f0(x[0])]),
     twin!("brdf/ggx.wgsl" "alpha_from_perceptual_roughness", [Range(-0.5, 1.5)], 0.5, 0.0, DOUBLE, |x| [ggx::alpha_from_perceptual_roughness(x[0])]),
     twin!("brdf/ggx.wgsl" "d_ggx", [HalfAngle, Alpha], 12.0, 0.0, DOUBLE, |x| [ggx::d_ggx(x[0], x[1], x[2])]),
     twin!("brdf/ggx.wgsl" "v_smith_ggx_correlated", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_correlated(x[0], x[1], x[2], x[3])]),
@@ -121,6 +157,14 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("brdf/metallic_roughness.wgsl" "diffuse_color", [Color(0.0, 1.0), Range(0.0, 1.0)], 2.0, 0.0, DOUBLE, |x| metallic_roughness::diffuse_color(v(x, 0), x[3])),
     twin!("brdf/metallic_roughness.wgsl" "f0_from_metallic", [Color(0.0, 1.0), Range(0.0, 1.0), Range(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| metallic_roughness::f0_from_metallic(v(x, 0), x[3], x[4])),
     twin!("brdf/multiscatter.wgsl" "energy_compensation", [Color(0.0, 1.0), Pair(0.0, 0.5)], 6.0, 0.0, DOUBLE, |x| multiscatter::energy_compensation(v(x, 0), v(x, 3))),
+    // A GPU's log2 has an absolute error of 2^-21 near 1, which the exponent 1 / alpha multiplies.
+    twin!("brdf/sheen.wgsl" "d_charlie", [HalfAngle, Range(0.02, 1.0)], 512.0, 0.01, FLOAT, |x| [sheen::d_charlie(x[0], x[1], x[2])]),
+    twin!("brdf/sheen.wgsl" "v_neubelt", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [sheen::v_neubelt(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/thin_film.wgsl" "f_thin_film", [Range(1.0, 3.0), Range(0.0, 1000.0), Color(0.2, 4.0), Color(0.0, 6.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film::f_thin_film(x[0], x[1], v(x, 2), v(x, 5), x[8])),
+    twin!("brdf/visibility.wgsl" "v_cook_torrance", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [visibility::v_cook_torrance(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/visibility.wgsl" "v_hammon", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [visibility::v_hammon(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/visibility.wgsl" "v_kelemen", [Cosine, Cosine, Cosine, Alpha], 6.0, 0.0, DOUBLE, |x| [visibility::v_kelemen(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/visibility.wgsl" "v_schlick_smith", [Cosine, Cosine, Cosine, Alpha], 12.0, 0.0, DOUBLE, |x| [visibility::v_schlick_smith(x[0], x[1], x[2], x[3])]),
     twin!("color.wgsl" "gamma_from_linear", [Color(-1.0, 8.0)], 32.0, 0.01, FLOAT, |x| color::gamma_from_linear(v(x, 0))),
     twin!("color.wgsl" "linear_from_srgb", [Color(-1.0, 2.0)], 32.0, 0.001, FLOAT, |x| color::linear_from_srgb(v(x, 0))),
     twin!("color.wgsl" "luminance", [Color(0.0, 100.0)], 4.0, 0.0, DOUBLE, |x| [color::luminance(v(x, 0))]),
