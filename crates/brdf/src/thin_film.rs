@@ -73,26 +73,27 @@ pub fn f_thin_film<R: Real>(film_ior: R, thickness: R, base_eta: [R; 3], base_k:
     let tones = tones(R::of(2.0) * thickness * q);
     let reflectance = |channel: usize| {
         let base = amplitudes(ior2, q, s2, base_eta[channel], base_k[channel]);
-        let both = film_series(r12[0], base[0], tones[channel]) + film_series(r12[1], base[1], tones[channel]);
+        let tones = tones.map(|order| order[channel]);
+        let both = film_series(r12[0], base[0], tones) + film_series(r12[1], base[1], tones);
         R::choose(q2.lt(R::ZERO), R::ONE, (R::of(0.5) * both).clamp(R::ZERO, R::ONE))
     };
     [reflectance(0), reflectance(1), reflectance(2)]
 }
 
-/// Each channel's response to exp(i m k `path`), m = 1..3: real and imaginary part.
+/// Each channel's response to exp(i m k `path`), m = 1..3: by order and channel, real and imaginary part.
 #[inline]
 fn tones<R: Real>(path: R) -> [[[R; 2]; 3]; 3] {
     let mut sums = [[[R::ZERO; 2]; 3]; 3];
     for (lobe, [centre, deviation]) in LOBES.into_iter().enumerate() {
-        for order in 0..3 {
+        for (order, sums) in sums.iter_mut().enumerate() {
             let m = (order + 1) as f64;
             let (sin, cos) = (R::of(m * centre) * path).sin_cos();
             let spread = R::of(m * deviation) * path;
             let size = (R::of(-0.5 * core::f64::consts::LOG2_E) * spread * spread).exp2();
-            for channel in 0..3 {
-                let weight = R::of(LOBE_WEIGHTS[channel][lobe]) * size;
-                let [re, im] = sums[channel][order];
-                sums[channel][order] = [re + weight * cos, im + weight * sin];
+            for ([re, im], weights) in sums.iter_mut().zip(LOBE_WEIGHTS) {
+                let weight = R::of(weights[lobe]) * size;
+                *re = *re + weight * cos;
+                *im = *im + weight * sin;
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Runs one function of the WGSL library on a GPU, many times, in f32 or in f64.
+//! Runs one function of the WGSL library on a GPU, many times, in f32, f64 or f16.
 
 use std::collections::BTreeSet;
 
@@ -17,11 +17,14 @@ pub(crate) struct Gpu {
     pub(crate) name: String,
     /// Whether it computes in f64.
     pub(crate) has_f64: bool,
+    /// Whether it computes in f16.
+    pub(crate) has_f16: bool,
 }
 
 /// A number that a GPU computes with.
 pub(crate) trait Number: bytemuck::Pod {
-    /// What stands in front of library code to make it compute with this.
+    /// What stands in front of library code to make it compute with this. Constants that it defines take the place of the
+    /// library's: floors that this type cannot hold.
     const PRELUDE: &'static str;
     fn from_f32(x: f32) -> Self;
     fn to_f64(self) -> f64;
@@ -47,6 +50,16 @@ impl Number for f64 {
     }
 }
 
+impl Number for half::f16 {
+    const PRELUDE: &'static str = include_str!("f16.wgsl");
+    fn from_f32(x: f32) -> Self {
+        half::f16::from_f32(x)
+    }
+    fn to_f64(self) -> f64 {
+        self.to_f64()
+    }
+}
+
 /// The files of library functions: those that hold neither nodes nor entry points.
 pub(crate) fn library_files() -> impl Iterator<Item = &'static File> {
     FILES.iter().filter(|f| !f.path.starts_with("nodes/") && !f.path.starts_with("entry/"))
@@ -58,8 +71,8 @@ pub(crate) fn library() -> Module {
     naga::front::wgsl::parse_str(&source).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&source)))
 }
 
-/// The function and all that it refers to, directly or not, as text.
-fn sliced(function: &str) -> String {
+/// The function and all that it refers to, directly or not, as text, but for what the prelude defines.
+fn sliced(function: &str, prelude: &str) -> String {
     let items: Vec<(&File, Item)> = library_files()
         .flat_map(|f| slice(f.source).unwrap_or_else(|e| panic!("{}: {e}", f.path)).into_iter().map(move |i| (f, i)))
         .collect();
@@ -72,7 +85,8 @@ fn sliced(function: &str) -> String {
             open.extend(item.dependencies.iter().cloned());
         }
     }
-    let kept = items.iter().filter(|(_, i)| reached.contains(&i.name));
+    let own = |name: &str| prelude.contains(&format!("const {name}:"));
+    let kept = items.iter().filter(|(_, i)| reached.contains(&i.name) && !own(&i.name));
     kept.map(|(file, item)| format!("{}\n", &file.source[item.code_start..item.end])).collect()
 }
 
@@ -143,7 +157,7 @@ fn call_of(module: &Module, function: &str, prelude: &str) -> Call {
         .replace("RESULTS", &format!("{}u", parts.len()))
         .replace("CALL", &format!("{function}({})", built.join(", ")))
         .replace("STORE", &stores.join("\n    "));
-    Call { source: format!("{prelude}{}{harness}", sliced(function)), arguments, results: parts.len() }
+    Call { source: format!("{prelude}{}{harness}", sliced(function, prelude)), arguments, results: parts.len() }
 }
 
 impl Gpu {
@@ -160,13 +174,14 @@ impl Gpu {
         };
         let info = adapter.get_info();
         let has_f64 = adapter.features().contains(wgpu::Features::SHADER_F64);
+        let has_f16 = adapter.features().contains(wgpu::Features::SHADER_F16);
         let descriptor = wgpu::DeviceDescriptor {
-            required_features: adapter.features() & wgpu::Features::SHADER_F64,
+            required_features: adapter.features() & (wgpu::Features::SHADER_F64 | wgpu::Features::SHADER_F16),
             required_limits: adapter.limits(),
             ..Default::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("the GPU opens");
-        Some(Gpu { device, queue, name: format!("{} ({})", info.name, info.backend), has_f64 })
+        Some(Gpu { device, queue, name: format!("{} ({})", info.name, info.backend), has_f64, has_f16 })
     }
 
     /// Calls a function of the library once for each row of `arguments` (row after row, without gaps) and returns the

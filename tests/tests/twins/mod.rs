@@ -1,6 +1,7 @@
 //! The functions that exist twice, in WGSL (what ships) and in Rust (what the crates offer): one table names them all,
 //! naga and syn prove it complete, and a GPU shows that each pair computes the same, in f32 and in f64.
 
+mod brdf_hard_cases;
 mod domain;
 mod gpu;
 mod hard_cases;
@@ -96,7 +97,7 @@ fn compare<N: Number>(
     for twin in twins {
         let inputs = arguments(twin);
         let outputs = gpu.call::<N>(&module, twin.name, &inputs);
-        let (mut worst, mut at) = (0.0, 0);
+        let (mut worst, mut at, mut squares) = (0.0, 0, 0.0);
         for (row, input) in inputs.chunks_exact(outputs.arguments).enumerate() {
             let input: Vec<f64> = input.iter().map(|x| f64::from(*x)).collect();
             let truth = (twin.rust)(&input);
@@ -104,12 +105,15 @@ fn compare<N: Number>(
             assert_eq!(truth.len(), output.len(), "{}: numbers that it returns", twin.name);
             for (value, truth) in output.iter().zip(&truth) {
                 let error = distance(*value, *truth, twin.floor, unit);
+                squares += error * error;
                 if error > worst {
                     (worst, at) = (error, row);
                 }
             }
         }
-        println!("{} {}: max {worst:.2e} of {}, floor {}", size_of::<N>() * 8, twin.name, allowed(twin), twin.floor);
+        let rms = (squares / outputs.values.len() as f64).sqrt();
+        let bits = size_of::<N>() * 8;
+        println!("f{bits} | {:<32} | {worst:>9.3} | {rms:>9.4} | {:>7} | {:e}", twin.name, allowed(twin), twin.floor);
         if worst > allowed(twin) {
             let input = &inputs[at * outputs.arguments..][..outputs.arguments];
             let output = &outputs.values[at * outputs.results..][..outputs.results];
@@ -127,7 +131,11 @@ fn compare<N: Number>(
 #[test]
 fn twins_agree_in_f32() {
     let Some(gpu) = Gpu::open() else { return };
-    println!("{}, {ROWS} calls each; errors in ulp", gpu.name);
+    println!(
+        "{}, {ROWS} calls each of WGSL in f32 against Rust in f64; errors in ulp of the value or of the floor",
+        gpu.name
+    );
+    println!("    | function                         |       max |       rms | allowed | floor");
     compare::<f32>(&gpu, TWINS.iter(), |twin| twin.ulp, ulp);
 }
 
