@@ -8,6 +8,7 @@ mod golden;
 mod images;
 mod methods;
 mod normal_tangent;
+mod relief;
 mod support;
 mod tidy;
 mod twins;
