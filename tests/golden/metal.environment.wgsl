@@ -4,6 +4,7 @@
 // left out: diffuse lobe: metallic is 1: a metal reflects nothing diffusely
 // left out: emission: it is 0
 // left out: occlusion: it is 1
+// left out: horizon: the shading normal is the geometry's: no reflection comes from below
 // left out: opacity: the material is opaque
 // left out: displacement: height is 0
 

@@ -6,6 +6,7 @@
 //     uniform environment; no table over (n.v, roughness) is read for it
 // left out: emission: it is 0
 // left out: occlusion: it is 1
+// left out: horizon: the shading normal is the geometry's: no reflection comes from below
 // left out: opacity: the material is opaque
 // left out: displacement: height is 0
 

@@ -2,7 +2,8 @@
 // serves: 2 directional lights, 1 point light, 3 spot lights, an environment, turned about +Y; returns display values
 //     through the tone map `pbr-neutral`
 // methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, compensation=turquin, dfg=table, prefilter=ggx,
-//     level_map=linear, irradiance=cube, height_normals=derived
+//     level_map=linear, irradiance=cube, specular_occlusion=cone, height_normals=derived
+// left out: horizon: the shading normal is the geometry's: no reflection comes from below
 // left out: opacity: the material is opaque
 // left out: normals of the displaced surface: height is the same everywhere
 
@@ -96,7 +97,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     radiance += diffuse_environment(diffuse, irradiance) * parameters.occlusion;
     let reflection_lod = lod_linear(parameters.perceptual_roughness, view.environment_levels);
     let reflection = environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
-    radiance += specular_environment(specular, reflection, dfg) * compensation * parameters.occlusion;
+    radiance += specular_environment(specular, reflection, dfg) * compensation * specular_occlusion_cone(frame.n_dot_v, parameters.occlusion, parameters.perceptual_roughness);
     radiance += parameters.emission;
     let display = srgb_from_linear(tone_map_pbr_neutral(radiance * view.exposure));
     return vec4f(display, 1.0);
@@ -360,6 +361,35 @@ fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, 
     let place = vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
+}
+
+// ---- ibl/occlusion.wgsl
+
+/// 0 below -width, 1 above width, a cubic step between.
+fn smooth_step_about_zero(x: f32, width: f32) -> f32 {
+    let t = saturate(0.5 + 0.5 * x / width);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+/// The part of the specular lobe that a cone about the normal leaves. `occlusion` is the open part of the cosine-weighted
+/// hemisphere, and the cone's half angle t has cos t = sqrt(1 - occlusion) (Jimenez et al. 2016, "Practical Real-Time
+/// Strategies for Accurate Indirect Occlusion"). A narrow lobe is inside or not, with a smooth step about the mirror
+/// direction, whose cosine is n.v; a wide one is hidden as diffuse light is. The constants are fitted to the integral.
+///
+/// Domain: all in [0, 1]. occlusion = 1 gives 1, 0 gives 0.
+/// Error against the integral of GGX inside the cone: 0.045 rms, 0.32 max (the occlusion itself: 0.23 and 0.96).
+fn specular_occlusion_cone(n_dot_v: f32, occlusion: f32, perceptual_roughness: f32) -> f32 {
+    let open = saturate(occlusion);
+    let alpha = perceptual_roughness * perceptual_roughness;
+    let edge = sqrt(1.0 - open);
+    let edge2 = edge * edge;
+    let edge4 = edge2 * edge2;
+    // 0 for a closed cone, which hides narrow lobes too.
+    let spread = 1.0 - edge4 * edge4;
+    let width = max(min((1.027 * perceptual_roughness - 0.0688) * spread, 2.0 * edge), 1e-4);
+    // The small numbers make a whole hemisphere 1 and none 0, at any n.v.
+    let inside = n_dot_v + 1e-4 - 1.001 * edge + 0.0548 * alpha * spread;
+    return mix(smooth_step_about_zero(inside, width), open, saturate(2.053 * alpha));
 }
 
 // ---- light.wgsl

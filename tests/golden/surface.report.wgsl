@@ -1,7 +1,9 @@
 // Surface, made by Halfvector
 // serves: an environment; returns linear radiance, Rec. 709
-// methods: dfg=table, prefilter=ggx, level_map=report, irradiance=last_level, height_normals=report, encode=report
+// methods: dfg=table, prefilter=ggx, level_map=report, irradiance=last_level, specular_occlusion=plain,
+//     height_normals=report, encode=report
 // left out: energy compensation: the method is `none`: single scattering only
+// left out: horizon: the shading normal is the geometry's: no reflection comes from below
 // left out: opacity: the material is opaque
 // left out: normals of the displaced surface: the method is `report`: the old normal is kept
 

@@ -134,6 +134,11 @@ impl<'a> Arena<'a> {
         }
     }
 
+    /// Whether an expression is nothing but a context.
+    pub(crate) fn is_context(&self, id: Id, name: &str) -> bool {
+        matches!(self.get(id).expr, Expr::Context(context) if context == name)
+    }
+
     pub(crate) fn as_literal(&self, id: Id) -> Option<Literal> {
         match self.get(id).expr {
             Expr::Literal(literal) => Some(literal),

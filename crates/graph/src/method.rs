@@ -133,6 +133,30 @@ pub const TERMS: &[Term] = &[
         report: "last_level",
     },
     Term {
+        name: "specular_occlusion",
+        help: "occlusion of the environment's reflection",
+        methods: &[
+            method(
+                "cone",
+                Some("specular_occlusion_cone"),
+                "part of the lobe inside the cone that the occlusion means",
+            ),
+            method("lagarde", Some("specular_occlusion_lagarde"), "Lagarde and de Rousiers 2014"),
+            method("plain", None, "the occlusion of diffuse light as it is"),
+        ],
+        report: "plain",
+    },
+    Term {
+        name: "horizon",
+        help: "reflections from below the geometry's horizon, where the normal is mapped",
+        methods: &[
+            method("cone", Some("horizon_cone"), "part of the lobe above the horizon"),
+            method("squared", Some("horizon_squared"), "Lagarde and de Rousiers 2014: saturate(1 + r.g)^2"),
+            method("none", None, "kept"),
+        ],
+        report: "none",
+    },
+    Term {
         name: "normal",
         help: "normal mapping",
         methods: &[

@@ -5,7 +5,8 @@
 //! * [`bake()`] turns one into a [`BakedEnvironment`]: a cube of radiance prefiltered for a rising roughness per level,
 //!   diffuse irradiance as a cube and as spherical harmonics. No random numbers: the same input gives the same bytes.
 //! * [`dfg_table`] is the split sum's other factor.
-//! * [`environment`] reads all of it; its functions are twins of `shaders/ibl/environment.wgsl`.
+//! * [`environment`] reads all of it, [`occlusion`] says what the surface hides of it; their functions are twins of
+//!   `shaders/ibl/environment.wgsl` and `shaders/ibl/occlusion.wgsl`.
 //!
 //! Radiance is linear Rec. 709. Right-handed, +Y up. Equirectangular maps: v = acos(y) / pi, u = atan2(z, x) / (2 pi) + 1/2.
 //! Cubes: faces +X -X +Y -Y +Z -Z by the GPU's face rules. The crate knows no path, no GPU and no node graph.
@@ -20,6 +21,7 @@ mod harmonics;
 mod kernel;
 mod load;
 mod lobe;
+pub mod occlusion;
 mod repair;
 mod resample;
 

@@ -8,7 +8,7 @@ use halfvector_brdf::{
     anisotropic, beckmann, dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter, sheen, thin_film,
     visibility,
 };
-use halfvector_ibl::environment;
+use halfvector_ibl::{environment, occlusion};
 use halfvector_maps::{blend, color, derivative, height, normal, octahedral, parallax};
 use halfvector_scene::light::{
     DirectionalLight, LightSample, PointLight, SpotLight, directional_light_sample, point_light_sample,
@@ -175,6 +175,12 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("ibl/environment.wgsl" "lod_linear", [Roughness, Range(1.0, 12.0)], 2.0, 0.0, DOUBLE, |x| [environment::lod_linear(x[0], x[1])]),
     twin!("ibl/environment.wgsl" "lod_report", [Roughness, Range(1.0, 12.0)], 2.0, 0.0, DOUBLE, |x| [environment::lod_report(x[0], x[1])]),
     twin!("ibl/environment.wgsl" "rotate_about_y", [Unit, Pair(-1.0, 1.0)], 4.0, 1.0, DOUBLE, |x| environment::rotate_about_y(v(x, 0), v(x, 3))),
+    twin!("ibl/occlusion.wgsl" "horizon_cone", [Range(-1.0, 1.0), Range(0.0, 1.0), Cosine, Roughness], 64.0, 1.0, DOUBLE, |x| [occlusion::horizon_cone(x[0], x[1], x[2], x[3])]),
+    twin!("ibl/occlusion.wgsl" "horizon_squared", [Range(-1.0, 1.0), Range(0.0, 1.0), Cosine, Roughness], 4.0, 1.0, DOUBLE, |x| [occlusion::horizon_squared(x[0], x[1], x[2], x[3])]),
+    twin!("ibl/occlusion.wgsl" "smooth_step_about_zero", [Range(-1.0, 1.0), Range(0.01, 1.0)], 16.0, 1.0, DOUBLE, |x| [occlusion::smooth_step_about_zero(x[0], x[1])]),
+    // Near its ends the step is 1e-4 wide: a rounding of the occlusion's root counts 1e4 times.
+    twin!("ibl/occlusion.wgsl" "specular_occlusion_cone", [Cosine, Range(0.0, 1.0), Roughness], 1024.0, 1.0, DOUBLE, |x| [occlusion::specular_occlusion_cone(x[0], x[1], x[2])]),
+    twin!("ibl/occlusion.wgsl" "specular_occlusion_lagarde", [Cosine, Range(0.0, 1.0), Roughness], 32.0, 1.0, FLOAT, |x| [occlusion::specular_occlusion_lagarde(x[0], x[1], x[2])]),
     twin!("light.wgsl" "directional_light_sample", [Unit, Color(0.0, 1e5), Point(10.0)], 0.0, 0.0, DOUBLE, |x| {
         sample(directional_light_sample(DirectionalLight { direction: v(x, 0), illuminance: v(x, 3) }, v(x, 6)))
     }),

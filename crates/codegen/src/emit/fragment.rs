@@ -223,7 +223,12 @@ impl Shading<'_, '_, '_> {
         let lod = self.writer.library(methods.get("level_map").function.unwrap_or("lod_linear"))?;
         let mirror = plan.specular || (plan.diffuse && last_level);
         if mirror {
-            let direction = self.turned("reflect(-frame.view_dir, frame.normal)", rotated)?;
+            let mut mirror = "reflect(-frame.view_dir, frame.normal)".to_owned();
+            if plan.horizon && rotated {
+                self.line(&format!("let mirror_dir = {mirror};"));
+                mirror = "mirror_dir".into();
+            }
+            let direction = self.turned(&mirror, rotated)?;
             self.line(&format!("let reflection_dir = {direction};"));
         }
         let occlusion = if plan.occlusion { format!(" * {}", self.root("occlusion", "1.0")) } else { String::new() };
@@ -259,10 +264,39 @@ impl Shading<'_, '_, '_> {
             let reflection = encoded(format!("{sample}({cube}, reflection_dir, reflection_lod)"));
             self.line(&format!("let reflection = {reflection};"));
             let compensated = if plan.compensation { " * compensation" } else { "" };
+            let hidden = self.hidden(&roughness, if rotated { "mirror_dir" } else { "reflection_dir" })?;
             let lobe = self.writer.library("specular_environment")?;
-            self.add(&format!("{lobe}(specular, reflection, dfg){compensated}{occlusion}"));
+            self.add(&format!("{lobe}(specular, reflection, dfg){compensated}{hidden}"));
         }
         Ok(())
+    }
+
+    /// What the reflection is multiplied by where the surface hides it: under occlusion, and below its own horizon.
+    fn hidden(&mut self, roughness: &str, mirror_dir: &str) -> Result<String, CodegenError> {
+        let plan = self.parts.plan;
+        let mut factors = String::new();
+        if plan.occlusion {
+            let occlusion = self.root("occlusion", "1.0");
+            factors += &match self.parts.needs.methods.get("specular_occlusion").function {
+                Some(function) => {
+                    format!(" * {}(frame.n_dot_v, {occlusion}, {roughness})", self.writer.library(function)?)
+                }
+                None => format!(" * {occlusion}"),
+            };
+        }
+        if let Some(function) = self.parts.needs.methods.get("horizon").function.filter(|_| plan.horizon) {
+            let function = self.writer.library(function)?;
+            let mut geometric = self.writer.context("world_normal");
+            if plan.double_sided {
+                self.line(&format!("let geometric_normal = select(-{geometric}, {geometric}, front_facing);"));
+                geometric = "geometric_normal".into();
+            }
+            self.line(&format!(
+                "let horizon = {function}(dot({mirror_dir}, {geometric}), dot(frame.normal, {geometric}), frame.n_dot_v, {roughness});"
+            ));
+            factors += " * horizon";
+        }
+        Ok(factors)
     }
 
     /// A world direction as a direction of the environment.

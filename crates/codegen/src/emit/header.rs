@@ -72,6 +72,8 @@ fn methods(plan: &Plan, needs: &Needs) -> String {
         "compensation" => plan.specular && plan.compensation,
         "dfg" => plan.specular && (plan.compensation || environment),
         "level_map" | "prefilter" => plan.specular && environment,
+        "specular_occlusion" => plan.specular && plan.occlusion,
+        "horizon" => plan.horizon,
         "irradiance" => plan.diffuse && environment,
         "encode" => environment && needs.methods.is("encode", "report"),
         "height_normals" => plan.height,

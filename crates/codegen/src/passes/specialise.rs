@@ -34,6 +34,8 @@ pub(crate) struct Plan {
     pub(crate) emission: bool,
     /// Occlusion of the environment.
     pub(crate) occlusion: bool,
+    /// Whether reflections from below the geometry's horizon are faded: the shading normal is not the geometry's.
+    pub(crate) horizon: bool,
     /// What opacity does, `Opaque` when it does nothing.
     pub(crate) alpha_mode: AlphaMode,
     pub(crate) height: bool,
@@ -194,6 +196,7 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     if plan.environment.is_some() && !plan.occlusion {
         plan.drop_it("occlusion", "it is 1");
     }
+    decide_horizon(&mut plan, program, needs);
     decide_opacity(&mut plan, &known, document);
     decide_height(&mut plan, &known, needs, lit);
     let mirror = plan.environment.is_some() && (plan.specular || needs.methods.is("irradiance", "last_level"));
@@ -218,6 +221,19 @@ fn compensates(plan: &mut Plan, needs: &Needs, constants: Constants) -> bool {
             false
         }
         _ => true,
+    }
+}
+
+/// Called before displacement is decided: a displaced surface's normal is that of its geometry.
+fn decide_horizon(plan: &mut Plan, program: &Program<'_>, needs: &Needs) {
+    if plan.environment.is_none() || !plan.specular {
+        return;
+    }
+    let stage = &program.fragment;
+    let mapped = stage.root("normal").is_some_and(|id| !stage.arena.is_context(id, "world_normal"));
+    plan.horizon = mapped && !program.derived_normal && !needs.methods.is("horizon", "none");
+    if !mapped {
+        plan.drop_it("horizon", "the shading normal is the geometry's: no reflection comes from below");
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod bake;
 mod files;
+mod occlusion;
 mod truth;
 
 use std::path::PathBuf;
