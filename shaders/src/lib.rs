@@ -55,6 +55,7 @@ pub const FILES: &[File] = files![
     "maps/normal.wgsl",
     "maps/octahedral.wgsl",
     "maps/parallax.wgsl",
+    "maps/texel.wgsl",
     "math.wgsl",
     "nodes/color/adjust.wgsl",
     "nodes/color/blend.wgsl",

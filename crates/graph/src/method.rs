@@ -176,6 +176,20 @@ pub const TERMS: &[Term] = &[
         report: "rotation_report",
     },
     Term {
+        name: "normal_decode",
+        help: "what the texels of normal maps mean",
+        methods: &[
+            method("unorm", Some("normal_from_texel"), "2 c - 1; 8-bit (128, 128, 255) leans by 0.318 degrees"),
+            method("snorm", Some("normal_from_texel_snorm"), "(255 c - 128) / 127; (128, 128, 255) is straight up"),
+            method(
+                "two_channel",
+                Some("normal_from_texel_two_channel"),
+                "x and y by 2 c - 1, z = sqrt(1 - x^2 - y^2): BC5, 3Dc",
+            ),
+        ],
+        report: "unorm",
+    },
+    Term {
         name: "height_normals",
         help: "shading normal of a displaced surface",
         methods: &[

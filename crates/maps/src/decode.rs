@@ -1,8 +1,9 @@
-//! Bytes to [`Image`]: PNG, JPEG, TIFF, WebP, TGA and BMP, told apart by their first bytes.
+//! Bytes to [`Image`]: PNG, JPEG, TIFF, WebP, TGA, BMP and QOI, told apart by their first bytes.
 //!
 //! Sizes are checked against [`Limits`] before the texels are allocated. A file that is cut short, lies about its size or
-//! is not an image gives an error; none gives a panic. Colour profiles are not applied, EXIF orientation neither (a
-//! texture is stored as its UVs expect it). Environments (.hdr, .exr, .hdre) are another crate's.
+//! is not an image gives an error; none gives a panic. What a file says about its colours is kept beside the values and
+//! applied when they are taken as colours. EXIF orientation is not applied (a texture is stored as its UVs expect it), nor
+//! is alpha divided out. Environments (.hdr, .exr, .hdre) are another crate's.
 
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -11,7 +12,12 @@ use image::error::{ImageError, LimitErrorKind};
 use image::{ColorType, ImageDecoder, ImageFormat, ImageReader};
 use rayon::prelude::*;
 
+mod format;
+mod stated;
+mod tiff;
+
 use crate::image::{Channels, Image, Texels};
+use crate::profile::Profile;
 
 /// What an image may cost at most. The default takes 16384 texels a side and 1 GiB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +46,7 @@ pub enum DecodeError {
     #[error("the image file is empty")]
     Empty,
     /// The bytes start like none of the formats.
-    #[error("not an image that can be read here: it starts like no PNG, JPEG, TIFF, WebP, TGA or BMP file")]
+    #[error("not an image that can be read here: it starts like no PNG, JPEG, TIFF, WebP, TGA, BMP or QOI file")]
     UnknownFormat,
     /// An image format that is not a texture's, or a variant that the decoder has not.
     #[error("{format} image: {what} cannot be read; save it as 8- or 16-bit PNG")]
@@ -78,102 +84,196 @@ pub enum DecodeError {
         /// What the decoder found.
         reason: String,
     },
+    /// Colours are asked for, and the file says that they are coded in a way that is not understood.
+    #[error(
+        "{format} image: its {profile} cannot be applied ({reason}); convert the file to sRGB, or remove the profile if \
+         the colours are sRGB already; as linear data the values can be read as they are"
+    )]
+    Profile {
+        /// The format's name.
+        format: &'static str,
+        /// The profile's name.
+        profile: String,
+        /// Why it is refused.
+        reason: String,
+    },
+}
+
+/// A decoded file: the values as they stand in it, and what it says about them. What is wanted is said by taking the
+/// image out: [`Decoded::into_color`] or [`Decoded::into_data`].
+#[derive(Clone, Debug)]
+pub struct Decoded {
+    format: &'static str,
+    image: Image,
+    profile: Option<Profile>,
+    notes: Vec<String>,
+}
+
+/// An image and what the user should know of how it was read, each note a clause such as
+/// `gAMA 0.45455 is not applied, as the values are data`.
+#[derive(Clone, Debug)]
+pub struct Noted {
+    /// The image.
+    pub image: Image,
+    /// What was done beyond taking values as they are, or left undone.
+    pub notes: Vec<String>,
+}
+
+impl Decoded {
+    /// The values as they stand in the file.
+    pub fn image(&self) -> &Image {
+        &self.image
+    }
+
+    /// What the file says about its colours, if anything.
+    pub fn profile(&self) -> Option<&Profile> {
+        self.profile.as_ref()
+    }
+
+    /// The image as colours in sRGB. Without a profile they are taken to be that. With one of another kind they are
+    /// converted, at the file's depth: out-of-gamut colours are clipped, and a note says how many.
+    ///
+    /// # Errors
+    /// [`DecodeError::Profile`] for a profile that cannot be applied: one of tables, of another colour model, for floats,
+    /// or damaged.
+    pub fn into_color(mut self) -> Result<Noted, DecodeError> {
+        let Some(profile) = self.profile else { return Ok(Noted { image: self.image, notes: self.notes }) };
+        let converted = profile.to_srgb(&self.image).map_err(|reason| DecodeError::Profile {
+            format: self.format,
+            profile: profile.name().to_owned(),
+            reason: reason.to_owned(),
+        })?;
+        if let Some(converted) = converted {
+            self.image = converted.image;
+            let clipped = match converted.clipped {
+                0 => String::new(),
+                1 => "; 1 texel lies outside of sRGB and is clipped".to_owned(),
+                count => format!("; {count} texels lie outside of sRGB and are clipped"),
+            };
+            self.notes.push(format!("converted to sRGB from {}{clipped}", profile.name()));
+        }
+        Ok(Noted { image: self.image, notes: self.notes })
+    }
+
+    /// The image as data: values as they are. A note names the profile, which is not applied.
+    pub fn into_data(mut self) -> Noted {
+        if let Some(profile) = self.profile {
+            self.notes.push(format!("{} is not applied, as the values are data", profile.name()));
+        }
+        Noted { image: self.image, notes: self.notes }
+    }
 }
 
 /// Reads a texture.
 ///
 /// 8-bit files keep 8 bits, 16-bit ones 16, float ones (TIFF) their values, with NaN read as 0 and infinities as +-65504.
+/// Fewer bits become 8, palettes their colours.
 ///
 /// # Errors
-/// [`DecodeError`] says what is wrong with the bytes.
-pub fn decode(bytes: &[u8], limits: Limits) -> Result<Image, DecodeError> {
-    let format = recognised(bytes)?;
-    let name = format_name(format);
-    if format == ImageFormat::Jpeg && !jpeg_is_complete(bytes) {
-        return Err(DecodeError::Truncated { format: name });
-    }
+/// [`DecodeError`] says what is wrong with the bytes. A profile is no error before colours are asked for.
+pub fn decode(bytes: &[u8], limits: Limits) -> Result<Decoded, DecodeError> {
+    let format = format::recognised(bytes)?;
+    let name = format::name(format);
     // The decoders below are others' and read hostile bytes: a panic inside one must stay one file's error.
-    catch_unwind(AssertUnwindSafe(|| decode_as(format, bytes, limits)))
-        .unwrap_or_else(|_| Err(DecodeError::Damaged { format: name, reason: "its decoder gave up".to_owned() }))
+    let parts = catch_unwind(AssertUnwindSafe(|| match format {
+        ImageFormat::Tiff => tiff::decode(bytes, limits),
+        _ => decode_as(format, bytes, limits),
+    }))
+    .unwrap_or_else(|_| Err(DecodeError::Damaged { format: name, reason: "its decoder gave up".to_owned() }))?;
+    let image = Image::new(parts.width, parts.height, parts.channels, parts.texels)
+        .map_err(|error| DecodeError::Damaged { format: name, reason: error.to_string() })?;
+    Ok(Decoded { format: name, image, profile: parts.profile, notes: parts.notes })
 }
 
-fn decode_as(format: ImageFormat, bytes: &[u8], limits: Limits) -> Result<Image, DecodeError> {
-    let name = format_name(format);
+/// What a decoder gives.
+struct Parts {
+    width: u32,
+    height: u32,
+    channels: Channels,
+    texels: Texels,
+    profile: Option<Profile>,
+    notes: Vec<String>,
+}
+
+fn decode_as(format: ImageFormat, bytes: &[u8], limits: Limits) -> Result<Parts, DecodeError> {
+    let name = format::name(format);
     let explain = |error| explained(error, name);
+    let jpeg = if format == ImageFormat::Jpeg { format::jpeg(bytes) } else { format::Jpeg::default() };
+    if format == ImageFormat::Jpeg && !jpeg.is_complete {
+        return Err(DecodeError::Truncated { format: name });
+    }
+    if jpeg.components == 4 {
+        return Err(DecodeError::Unsupported { format: name, what: "CMYK (four inks)".to_owned() });
+    }
+    if let (ImageFormat::Qoi, Some(&[a, b, c, d, e, f, g, h])) = (format, bytes.get(4..).and_then(<[u8]>::first_chunk))
+    {
+        // Its decoder calls every size that it does not take damage.
+        let size = [[a, b, c, d], [e, f, g, h]].map(u32::from_be_bytes);
+        check_size(name, size, 4, 0, limits)?;
+    }
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut inner = image::Limits::no_limits();
-    inner.max_alloc = Some(limits.max_bytes);
+    // A PNG file's profile grows by doubling while it is inflated, before its size is known.
+    inner.max_alloc = Some(if format == ImageFormat::Png { limits.max_bytes / 2 } else { limits.max_bytes });
     reader.limits(inner);
-    let decoder = reader.into_decoder().map_err(explain)?;
+    let mut decoder = reader.into_decoder().map_err(explain)?;
 
     let (width, height) = decoder.dimensions();
     let color = decoder.color_type();
     let (channels, sample_bytes) = layout(color)
         .ok_or_else(|| DecodeError::Unsupported { format: name, what: format!("the colour type {color:?}") })?;
-    check_size(name, [width, height], channels, sample_bytes, limits)?;
+    let is_stored_as_read = color == ColorType::Rgba8;
+    let read_bytes = if is_stored_as_read { 0 } else { channels.count() * sample_bytes };
+    let (own_bytes, own_copy) = decoders_own(format, &jpeg, bytes.len());
+    check_size(name, [width, height], read_bytes + 4 * sample_bytes + own_bytes, own_copy, limits)?;
+
+    let is_grey = !channels.has_color();
+    let icc = decoder.icc_profile().ok().flatten();
+    let profile = match format {
+        ImageFormat::Png => stated::png(bytes, icc.as_deref(), is_grey),
+        ImageFormat::Bmp => stated::bmp(bytes),
+        ImageFormat::Tga => stated::tga(bytes),
+        ImageFormat::Qoi => stated::qoi(bytes),
+        _ => match icc {
+            Some(icc) => Some(Profile::from_icc(&icc, is_grey)),
+            None => jpeg.has_profile.then(|| Profile::refused("ICC profile", "it is damaged")),
+        },
+    };
 
     let count = width as usize * height as usize;
-    let texels = if color == ColorType::Rgba8 {
-        // Already as it is stored: no second copy.
-        let mut texels = zeroed::<[u8; 4]>(count, name)?;
-        decoder.read_image(texels.as_flattened_mut()).map_err(explain)?;
-        Texels::U8(texels)
-    } else {
-        let mut raw = zeroed::<u8>(count * sample_count(channels) * sample_bytes, name)?;
-        decoder.read_image(&mut raw).map_err(explain)?;
-        match sample_bytes {
-            1 => Texels::U8(spread(&raw, channels, 255, |[b]: [u8; 1]| b)),
-            2 => Texels::U16(spread(&raw, channels, 65535, u16::from_ne_bytes)),
-            _ => Texels::F32(spread(&raw, channels, 1.0, |b| finite(f32::from_ne_bytes(b)))),
+    let read = |buffer: &mut [u8]| decoder.read_image(buffer).map_err(explain);
+    let texels = match sample_bytes {
+        _ if is_stored_as_read => {
+            let mut texels = zeroed::<[u8; 4]>(count, name)?;
+            read(texels.as_flattened_mut())?;
+            Texels::U8(texels)
+        }
+        1 => {
+            let mut values = zeroed::<u8>(count * channels.count(), name)?;
+            read(&mut values)?;
+            Texels::U8(spread(&values, channels, 255, |v| v))
+        }
+        _ => {
+            let mut values = zeroed::<u16>(count * channels.count(), name)?;
+            read(bytemuck::cast_slice_mut(&mut values))?;
+            Texels::U16(spread(&values, channels, 65_535, |v| v))
         }
     };
-    Image::new(width, height, channels, texels)
-        .map_err(|error| DecodeError::Damaged { format: name, reason: error.to_string() })
+    Ok(Parts { width, height, channels, texels, profile, notes: Vec::new() })
 }
 
-/// The format that the first bytes show. TGA has no signature: its header only has to be one.
-fn recognised(bytes: &[u8]) -> Result<ImageFormat, DecodeError> {
-    use ImageFormat::{Bmp, Jpeg, OpenExr, Png, Tga, Tiff, WebP};
-    if bytes.is_empty() {
-        return Err(DecodeError::Empty);
-    }
-    match image::guess_format(bytes) {
-        Ok(format @ (Png | Jpeg | Tiff | WebP | Bmp)) => Ok(format),
-        Ok(ImageFormat::Hdr) | Ok(OpenExr) => Err(DecodeError::Unsupported {
-            format: if bytes.starts_with(b"#?") { "HDR" } else { "OpenEXR" },
-            what: "a high-dynamic-range environment as a texture".to_owned(),
-        }),
-        _ if looks_like_tga(bytes) => Ok(Tga),
-        Ok(format) => Err(DecodeError::Unsupported { format: format_name(format), what: "this format".to_owned() }),
-        Err(_) => Err(DecodeError::UnknownFormat),
-    }
-}
-
-fn looks_like_tga(bytes: &[u8]) -> bool {
-    let Some(header) = bytes.first_chunk::<18>() else { return false };
-    let [_, map_type, image_type, ..] = *header;
-    let width = u16::from_le_bytes([header[12], header[13]]);
-    let height = u16::from_le_bytes([header[14], header[15]]);
-    map_type <= 1
-        && matches!(image_type, 1..=3 | 9..=11)
-        && width > 0
-        && height > 0
-        && matches!(header[16], 8 | 15 | 16 | 24 | 32)
-}
-
-fn format_name(format: ImageFormat) -> &'static str {
+/// What a decoder allocates beside what it is given, at most: bytes per texel, and bytes. JPEG keeps a copy of the file and,
+/// where it is progressive, coefficients of 16 bits; WebP keeps its planes, or its own copy of the texels.
+fn decoders_own(format: ImageFormat, jpeg: &format::Jpeg, length: usize) -> (usize, usize) {
     match format {
-        ImageFormat::Png => "PNG",
-        ImageFormat::Jpeg => "JPEG",
-        ImageFormat::Tiff => "TIFF",
-        ImageFormat::WebP => "WebP",
-        ImageFormat::Tga => "TGA",
-        ImageFormat::Bmp => "BMP",
-        other => other.extensions_str().first().copied().unwrap_or("unknown"),
+        ImageFormat::Jpeg if jpeg.is_progressive => (2 * usize::from(jpeg.components), length),
+        ImageFormat::Jpeg => (0, length),
+        ImageFormat::WebP => (4, 0),
+        _ => (0, 0),
     }
 }
 
-/// Channels, and bytes per sample.
+/// Channels, and bytes per sample, of what is read through the crate image: no floats.
 fn layout(color: ColorType) -> Option<(Channels, usize)> {
     Some(match color {
         ColorType::L8 => (Channels::Grey, 1),
@@ -184,26 +284,16 @@ fn layout(color: ColorType) -> Option<(Channels, usize)> {
         ColorType::La16 => (Channels::GreyAlpha, 2),
         ColorType::Rgb16 => (Channels::Rgb, 2),
         ColorType::Rgba16 => (Channels::Rgba, 2),
-        ColorType::Rgb32F => (Channels::Rgb, 4),
-        ColorType::Rgba32F => (Channels::Rgba, 4),
         _ => return None,
     })
 }
 
-fn sample_count(channels: Channels) -> usize {
-    match channels {
-        Channels::Grey => 1,
-        Channels::GreyAlpha => 2,
-        Channels::Rgb => 3,
-        Channels::Rgba => 4,
-    }
-}
-
+/// Refuses a size before anything is allocated for it: `texel_bytes` per texel and `more_bytes` beside.
 fn check_size(
     format: &'static str,
     [width, height]: [u32; 2],
-    channels: Channels,
-    sample_bytes: usize,
+    texel_bytes: usize,
+    more_bytes: usize,
     limits: Limits,
 ) -> Result<(), DecodeError> {
     let too_large = |limit| Err(DecodeError::TooLarge { format, width, height, limit });
@@ -217,8 +307,7 @@ fn check_size(
     if texels > limits.max_texels {
         return too_large(format!("at most {} texels are allowed", limits.max_texels));
     }
-    let own_samples = if sample_bytes == 1 && channels == Channels::Rgba { 0 } else { sample_count(channels) };
-    let bytes = texels.saturating_mul((4 + own_samples as u64) * sample_bytes as u64);
+    let bytes = texels.saturating_mul(texel_bytes as u64).saturating_add(more_bytes as u64);
     if bytes > limits.max_bytes || usize::try_from(bytes).is_err() {
         return too_large(format!("that takes {bytes} bytes and at most {} are allowed", limits.max_bytes));
     }
@@ -226,36 +315,30 @@ fn check_size(
 }
 
 /// Memory that may be refused, as an error.
-fn zeroed<T: Clone + Default>(count: usize, format: &'static str) -> Result<Vec<T>, DecodeError> {
-    let mut memory = Vec::new();
-    memory.try_reserve_exact(count).map_err(|_| DecodeError::Unsupported {
+fn zeroed<T: bytemuck::Zeroable>(count: usize, format: &'static str) -> Result<Vec<T>, DecodeError> {
+    bytemuck::allocation::try_zeroed_vec(count).map_err(|()| DecodeError::Unsupported {
         format,
         what: format!("an image that needs {} bytes when there are not so many", count * size_of::<T>()),
-    })?;
-    memory.resize(count, T::default());
-    Ok(memory)
+    })
 }
 
-/// Raw samples of N bytes each, spread to four channels.
-fn spread<T: Copy + Send + Sync, const N: usize>(
-    raw: &[u8],
+/// Samples spread to four channels.
+fn spread<S: Copy + Sync, T: Copy + Send + Sync>(
+    samples: &[S],
     channels: Channels,
     opaque: T,
-    sample: impl Fn([u8; N]) -> T + Sync,
+    value: impl Fn(S) -> T + Sync,
 ) -> Vec<[T; 4]> {
-    let samples = sample_count(channels);
-    raw.par_chunks_exact(N * samples)
-        .with_min_len(1 << 14)
-        .map(|texel| {
-            let at = |i: usize| sample(std::array::from_fn(|byte| texel[i * N + byte]));
-            match channels {
-                Channels::Grey => [at(0), at(0), at(0), opaque],
-                Channels::GreyAlpha => [at(0), at(0), at(0), at(1)],
-                Channels::Rgb => [at(0), at(1), at(2), opaque],
-                Channels::Rgba => [at(0), at(1), at(2), at(3)],
-            }
-        })
-        .collect()
+    let texel = |texel: &[S]| {
+        let at = |i: usize| value(texel[i]);
+        match channels {
+            Channels::Grey => [at(0), at(0), at(0), opaque],
+            Channels::GreyAlpha => [at(0), at(0), at(0), at(1)],
+            Channels::Rgb => [at(0), at(1), at(2), opaque],
+            Channels::Rgba => [at(0), at(1), at(2), at(3)],
+        }
+    };
+    samples.par_chunks_exact(channels.count()).with_min_len(1 << 14).map(texel).collect()
 }
 
 /// One bad texel would spread through every filter: NaN is 0 and infinity the largest half-precision number.
@@ -267,36 +350,6 @@ fn finite(x: f32) -> f32 {
     } else {
         x
     }
-}
-
-/// Whether the segments of a JPEG file run through to its end marker. The decoder fills what is missing with grey.
-/// ITU-T T.81 (1992), annex B: a marker is FF and a code; most carry a length; after SOS (DA) come entropy-coded bytes in
-/// which FF is followed by 0 or by a restart marker (D0..D7), until the next marker.
-fn jpeg_is_complete(bytes: &[u8]) -> bool {
-    let mut at = 2;
-    while let Some(&[first, code]) = bytes.get(at..).and_then(|rest| rest.first_chunk::<2>()) {
-        match (first, code) {
-            (0xff, 0xd9) => return true,
-            // Fill bytes, and markers that stand alone.
-            (0xff, 0xff) => at += 1,
-            (0xff, 0x01 | 0xd0..=0xd8) => at += 2,
-            (0xff, 0x02..) => {
-                let Some(&[high, low]) = bytes.get(at + 2..).and_then(|rest| rest.first_chunk::<2>()) else {
-                    return false;
-                };
-                at += 2 + usize::from(u16::from_be_bytes([high, low])).max(2);
-                if code == 0xda {
-                    let Some(scan) = bytes.get(at..) else { return false };
-                    let end = scan.windows(2).position(|w| w[0] == 0xff && !matches!(w[1], 0x00 | 0xd0..=0xd7 | 0xff));
-                    let Some(end) = end else { return false };
-                    at += end;
-                }
-            }
-            // Not a marker: some writers pad between segments.
-            _ => at += 1,
-        }
-    }
-    false
 }
 
 fn explained(error: ImageError, format: &'static str) -> DecodeError {

@@ -20,6 +20,21 @@ impl Channels {
     pub fn has_alpha(self) -> bool {
         matches!(self, Self::GreyAlpha | Self::Rgba)
     }
+
+    /// Whether the source had red, green and blue.
+    pub fn has_color(self) -> bool {
+        matches!(self, Self::Rgb | Self::Rgba)
+    }
+
+    /// How many there are.
+    pub fn count(self) -> usize {
+        match self {
+            Self::Grey => 1,
+            Self::GreyAlpha => 2,
+            Self::Rgb => 3,
+            Self::Rgba => 4,
+        }
+    }
 }
 
 /// The texels, row by row from the top left, each red, green, blue, alpha.
@@ -83,10 +98,10 @@ impl Image {
         Ok(Self { width, height, channels, texels })
     }
 
-    /// A level of this image's mip chain; `texels` has as many as the size says.
-    pub(crate) fn with_level(&self, width: u32, height: u32, texels: Texels) -> Self {
+    /// An image whose texels are as many as its size says, which the caller knows.
+    pub(crate) fn from_parts(width: u32, height: u32, channels: Channels, texels: Texels) -> Self {
         debug_assert_eq!(texels.len(), width as usize * height as usize);
-        Self { width, height, channels: self.channels, texels }
+        Self { width, height, channels, texels }
     }
 
     /// Width in texels, at least 1.

@@ -5,10 +5,9 @@
 //! level has the mean of the first. Averages go from level to level in f32 and are rounded only when they are stored.
 //! Does not filter wider than a box, and does not wrap.
 
-use std::sync::LazyLock;
-
 use rayon::prelude::*;
 
+use crate::coding::{Srgb8, code_u8, code_u16, srgb8};
 use crate::color::{linear_from_srgb, srgb_from_linear};
 use crate::image::{Image, Texels};
 use crate::real::normalize_or;
@@ -35,26 +34,141 @@ pub enum MapKind {
 }
 
 /// The image and all its smaller levels: the first is a copy of `image`, the last has one texel. The levels keep its
-/// format (8-bit, 16-bit, float) and channels. NaN counts as 0.
+/// format (8-bit, 16-bit, float) and channels. NaN counts as 0. [`smaller_levels`] saves the copy.
 pub fn mip_chain(image: &Image, color_space: ColorSpace, kind: MapKind) -> Vec<Image> {
-    let mut levels = vec![image.clone()];
-    let coding = Coding { color_space, kind, srgb8: &SRGB8 };
+    let mut levels = smaller_levels(image, color_space, kind);
+    levels.insert(0, image.clone());
+    levels
+}
+
+/// The levels of [`mip_chain`] below the first; none for one texel.
+pub fn smaller_levels(image: &Image, color_space: ColorSpace, kind: MapKind) -> Vec<Image> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     if width == 1 && height == 1 {
-        return levels;
+        return Vec::new();
     }
+    let coding = Coding { color_space, kind, srgb8: srgb8() };
     let weighted = kind == MapKind::Color && image.channels().has_alpha();
-    let mut level = match image.texels() {
-        Texels::U8(texels) => halved(width, height, weighted, |i| coding.read_u8(texels[i])),
-        Texels::U16(texels) => halved(width, height, weighted, |i| coding.read_u16(texels[i])),
-        Texels::F32(texels) => halved(width, height, weighted, |i| coding.read_f32(texels[i])),
-    };
-    loop {
-        levels.push(coding.stored(&level, image));
-        if level.width == 1 && level.height == 1 {
-            return levels;
+    let levels = match image.texels() {
+        Texels::U8(texels) => {
+            let read = |i: usize| coding.read_u8(texels[i]);
+            all_levels(width, height, weighted, read, |t| coding.store_u8(t), Texels::U8)
         }
-        level = halved(level.width, level.height, weighted, |i| level.texels[i]);
+        Texels::U16(texels) => {
+            let read = |i: usize| coding.read_u16(texels[i]);
+            all_levels(width, height, weighted, read, |t| coding.encoded(t).map(code_u16), Texels::U16)
+        }
+        Texels::F32(texels) => {
+            let read = |i: usize| coding.read_f32(texels[i]);
+            all_levels(width, height, weighted, read, |t| coding.encoded(t), Texels::F32)
+        }
+    };
+    levels
+        .into_iter()
+        .map(|(width, height, texels)| Image::from_parts(width as u32, height as u32, image.channels(), texels))
+        .collect()
+}
+
+/// Width, height and stored texels of all levels below one that `read` gives.
+fn all_levels<T: Copy + Default + Send + Sync>(
+    width: usize,
+    height: usize,
+    weighted: bool,
+    read: impl Fn(usize) -> [f32; 4] + Sync,
+    store: impl Fn([f32; 4]) -> [T; 4] + Sync,
+    texels: impl Fn(Vec<[T; 4]>) -> Texels,
+) -> Vec<(usize, usize, Texels)> {
+    let (mut levels, mut level) = even_levels(width, height, weighted, &read, &store);
+    while level.as_ref().is_none_or(|level| level.width > 1 || level.height > 1) {
+        let next = match &level {
+            Some(level) => halved(level.width, level.height, weighted, |i| level.texels[i]),
+            None => halved(width, height, weighted, &read),
+        };
+        let texels = next.texels.par_iter().with_min_len(1 << 12).map(|&texel| store(texel)).collect();
+        levels.push(Stored { width: next.width, height: next.height, texels });
+        level = Some(next);
+    }
+    levels.into_iter().map(|level| (level.width, level.height, texels(level.texels))).collect()
+}
+
+/// A level in the image's format.
+struct Stored<T> {
+    width: usize,
+    height: usize,
+    texels: Vec<[T; 4]>,
+}
+
+/// How many levels are made in one pass over the first at most: bands of 32 rows.
+const FUSED: u32 = 5;
+
+/// The levels down to where a side is odd, but at most [`FUSED`], made in one pass: as soon as two rows of a level are
+/// there they become one of the next, while they are in the cache. Also the last of them as it is before it is rounded;
+/// none where the first level has an odd side.
+fn even_levels<T: Copy + Default + Send + Sync>(
+    width: usize,
+    height: usize,
+    weighted: bool,
+    read: &(impl Fn(usize) -> [f32; 4] + Sync),
+    store: &(impl Fn([f32; 4]) -> [T; 4] + Sync),
+) -> (Vec<Stored<T>>, Option<Level>) {
+    let count = width.trailing_zeros().min(height.trailing_zeros()).min(FUSED);
+    if count == 0 {
+        return (Vec::new(), None);
+    }
+    let size = |level: u32| (width >> level, height >> level);
+    let mut stored: Vec<Vec<[T; 4]>> =
+        (1..=count).map(|level| vec![[T::default(); 4]; size(level).0 * size(level).1]).collect();
+    let (last_width, bands) = size(count);
+    let mut last = Level { width: last_width, height: bands, texels: vec![[0.0; 4]; last_width * bands] };
+    // Band i makes row i of the last level, and 2, 4, 8 .. rows of those above.
+    let mut parts: Vec<_> = last.texels.chunks_mut(last_width).map(|row| (row, Vec::new())).collect();
+    for (level, texels) in (1..=count).zip(&mut stored) {
+        let rows = texels.chunks_mut(size(level).0 << (count - level));
+        parts.iter_mut().zip(rows).for_each(|((_, outs), rows)| outs.push(rows));
+    }
+    parts.into_par_iter().enumerate().for_each(|(band, (last_row, mut outs))| {
+        // Two rows of each level but the last, whose one row is the result.
+        let mut rows: Vec<[Vec<[f32; 4]>; 2]> =
+            (1..=count).map(|level| [(); 2].map(|()| vec![[0.0; 4]; size(level).0])).collect();
+        for y in 0..1_usize << (count - 1) {
+            let first = ((band << (count - 1)) + y) * 2 * width;
+            halve_rows(&mut rows[0][y % 2], weighted, |x| [first + x, first + width + x].map(read));
+            let (mut level, mut row) = (0, y);
+            loop {
+                let done = &rows[level][row % 2];
+                let out = &mut outs[level][row * done.len()..][..done.len()];
+                out.iter_mut().zip(done).for_each(|(out, &texel)| *out = store(texel));
+                if row.is_multiple_of(2) || level + 1 == rows.len() {
+                    break;
+                }
+                let (above, below) = rows.split_at_mut(level + 1);
+                let [a, b] = &above[level];
+                halve_rows(&mut below[0][row / 2 % 2], weighted, |x| [a[x], b[x]]);
+                (level, row) = (level + 1, row / 2);
+            }
+        }
+        last_row.copy_from_slice(&rows[count as usize - 1][0]);
+    });
+    let stored = (1..=count).zip(stored).map(|(level, texels)| {
+        let (width, height) = size(level);
+        Stored { width, height, texels }
+    });
+    (stored.collect(), Some(last))
+}
+
+/// One row from two of twice its length; `pair` gives the upper and the lower texel of a column.
+fn halve_rows(row: &mut [[f32; 4]], weighted: bool, pair: impl Fn(usize) -> [[f32; 4]; 2]) {
+    let quad = |x: usize| {
+        let ([a, c], [b, d]) = (pair(2 * x), pair(2 * x + 1));
+        [a, b, c, d]
+    };
+    if weighted {
+        row.iter_mut().enumerate().for_each(|(x, out)| *out = Mean::of(quad(x)).by_alpha());
+    } else {
+        let mean = |[a, b, c, d]: [[f32; 4]; 4]| {
+            std::array::from_fn(|k| (0.25 * a[k] + 0.25 * b[k]) + (0.25 * c[k] + 0.25 * d[k]))
+        };
+        row.iter_mut().enumerate().for_each(|(x, out)| *out = mean(quad(x)));
     }
 }
 
@@ -68,22 +182,14 @@ struct Level {
 /// The level below one of `width` x `height` texels.
 fn halved(width: usize, height: usize, weighted: bool, texel: impl Fn(usize) -> [f32; 4] + Sync) -> Level {
     let (half_width, half_height) = ((width / 2).max(1), (height / 2).max(1));
-    let is_even = width.is_multiple_of(2) && height.is_multiple_of(2);
     let mut texels = vec![[0.0; 4]; half_width * half_height];
     let rows = texels.par_chunks_mut(half_width).with_min_len(4096_usize.div_ceil(half_width)).enumerate();
     rows.for_each(|(y, row)| {
         for (x, out) in row.iter_mut().enumerate() {
             let mut mean = Mean::default();
-            if is_even {
-                let first = 2 * y * width + 2 * x;
-                for i in [first, first + 1, first + width, first + width + 1] {
-                    mean.add(0.25, texel(i));
-                }
-            } else {
-                for (j, row_weight) in footprint(height, y).weights() {
-                    for (i, weight) in footprint(width, x).weights() {
-                        mean.add(weight * row_weight, texel(j * width + i));
-                    }
+            for (j, row_weight) in footprint(height, y).weights() {
+                for (i, weight) in footprint(width, x).weights() {
+                    mean.add(weight * row_weight, texel(j * width + i));
                 }
             }
             *out = if weighted { mean.by_alpha() } else { mean.sum };
@@ -101,6 +207,13 @@ struct Mean {
 }
 
 impl Mean {
+    /// Of four alike.
+    fn of(texels: [[f32; 4]; 4]) -> Self {
+        let mut mean = Self::default();
+        texels.into_iter().for_each(|texel| mean.add(0.25, texel));
+        mean
+    }
+
     fn add(&mut self, weight: f32, texel: [f32; 4]) {
         for (sum, c) in self.sum.iter_mut().zip(texel) {
             *sum += weight * c;
@@ -124,21 +237,21 @@ impl Mean {
 
 /// What texel `i` of a level covers along one axis of the level above.
 #[derive(Clone, Copy)]
-struct Footprint {
+pub(crate) struct Footprint {
     first: usize,
     count: usize,
     weights: [f32; 3],
 }
 
 impl Footprint {
-    fn weights(&self) -> impl Iterator<Item = (usize, f32)> {
+    pub(crate) fn weights(&self) -> impl Iterator<Item = (usize, f32)> {
         (0..self.count).map(|tap| (self.first + tap, self.weights[tap]))
     }
 }
 
 /// With n texels above and m = max(1, floor(n / 2)) here, texel i covers [i n / m, (i + 1) n / m). For n = 2 m that is two
 /// whole texels; for n = 2 m + 1 it is the parts 1 - i / m, 1 and (i + 1) / m of three; all over n / m.
-fn footprint(n: usize, i: usize) -> Footprint {
+pub(crate) fn footprint(n: usize, i: usize) -> Footprint {
     let m = n / 2;
     if n == 1 {
         Footprint { first: 0, count: 1, weights: [1.0, 0.0, 0.0] }
@@ -214,20 +327,13 @@ impl Coding {
         }
     }
 
-    fn stored(self, level: &Level, image: &Image) -> Image {
-        let texels = match image.texels() {
-            Texels::U8(_) => Texels::U8(each(level, |texel| {
-                let [r, g, b, a] = self.codes(texel);
-                if self.is_srgb() {
-                    [self.srgb8.code(r), self.srgb8.code(g), self.srgb8.code(b), code_u8(a)]
-                } else {
-                    [r, g, b, a].map(code_u8)
-                }
-            })),
-            Texels::U16(_) => Texels::U16(each(level, |texel| self.encoded(texel).map(code_u16))),
-            Texels::F32(_) => Texels::F32(each(level, |texel| self.encoded(texel))),
-        };
-        image.with_level(level.width as u32, level.height as u32, texels)
+    fn store_u8(self, texel: [f32; 4]) -> [u8; 4] {
+        let [r, g, b, a] = self.codes(texel);
+        if self.is_srgb() {
+            [self.srgb8.code(r), self.srgb8.code(g), self.srgb8.code(b), code_u8(a)]
+        } else {
+            [r, g, b, a].map(code_u8)
+        }
     }
 
     fn encoded(self, texel: [f32; 4]) -> [f32; 4] {
@@ -238,52 +344,5 @@ impl Coding {
         } else {
             [r, g, b, a]
         }
-    }
-}
-
-fn each<T: Send>(level: &Level, store: impl Fn([f32; 4]) -> T + Sync) -> Vec<T> {
-    level.texels.par_iter().with_min_len(1 << 12).map(|&texel| store(texel)).collect()
-}
-
-fn code_u8(x: f32) -> u8 {
-    (x * 255.0 + 0.5) as u8
-}
-
-fn code_u16(x: f32) -> u16 {
-    (x * 65535.0 + 0.5) as u16
-}
-
-/// 8-bit sRGB by table, exact in both directions.
-struct Srgb8 {
-    /// Linear value of each code.
-    linear: [f32; 256],
-    /// Linear value from which on each code is the nearest.
-    threshold: [f32; 256],
-    /// Code at the lower end of each 4096th of the linear range: where the search starts.
-    start: [u8; Self::STEPS + 1],
-}
-
-static SRGB8: LazyLock<Srgb8> = LazyLock::new(|| {
-    let linear_of = |s: f64| linear_from_srgb([s; 3])[0] as f32;
-    let linear = std::array::from_fn(|code| linear_of(code as f64 / 255.0));
-    let threshold =
-        std::array::from_fn(|code| if code == 0 { f32::NEG_INFINITY } else { linear_of((code as f64 - 0.5) / 255.0) });
-    let start = std::array::from_fn(|step| {
-        let low = step as f32 / Srgb8::STEPS as f32;
-        threshold.iter().filter(|&&t| t <= low).count().saturating_sub(1) as u8
-    });
-    Srgb8 { linear, threshold, start }
-});
-
-impl Srgb8 {
-    const STEPS: usize = 4096;
-
-    /// The code nearest, in sRGB, to a linear value; clamped to 0..1, NaN is 0.
-    fn code(&self, linear: f32) -> u8 {
-        let mut code = self.start[((linear * Self::STEPS as f32) as usize).min(Self::STEPS)];
-        while code < 255 && linear >= self.threshold[usize::from(code) + 1] {
-            code += 1;
-        }
-        code
     }
 }

@@ -41,15 +41,15 @@ pub(crate) fn image(
     // Colours are weighted by their coverage; whether other data are normals is not known here, and the mean of vectors
     // that the shader makes unit serves them too.
     let kind = if color_space == ColorSpace::Srgb { MapKind::Color } else { MapKind::Data };
-    let levels = halfvector_maps::mip_chain(&base, maps_color_space(space), kind);
+    let smaller = halfvector_maps::smaller_levels(&base, maps_color_space(space), kind);
     let format = match (image.texels(), space) {
         (Texels::U8(_), ColorSpace::Srgb) => wgpu::TextureFormat::Rgba8UnormSrgb,
         (Texels::U8(_), ColorSpace::Linear) => wgpu::TextureFormat::Rgba8Unorm,
         _ if gpu.filters_f32() => wgpu::TextureFormat::Rgba32Float,
         _ => wgpu::TextureFormat::Rgba16Float,
     };
-    let texture = new_texture(gpu, format, [width, height, 1], levels.len() as u32);
-    for (level, image) in levels.iter().enumerate() {
+    let texture = new_texture(gpu, format, [width, height, 1], 1 + smaller.len() as u32);
+    for (level, image) in std::iter::once(base.as_ref()).chain(&smaller).enumerate() {
         let bytes = texel_bytes(image, format);
         write(gpu, &texture, level as u32, [image.width(), image.height(), 1], &bytes);
     }

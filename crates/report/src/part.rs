@@ -2,6 +2,7 @@
 
 pub mod brdf;
 pub mod maps;
+pub mod mips;
 
 use crate::{Effort, Row};
 
@@ -14,4 +15,8 @@ pub struct Part {
 }
 
 /// All parts, in the order shown.
-pub const PARTS: &[Part] = &[Part { name: "brdf", rows: brdf::rows }, Part { name: "maps", rows: maps::rows }];
+pub const PARTS: &[Part] = &[
+    Part { name: "brdf", rows: brdf::rows },
+    Part { name: "maps", rows: maps::rows },
+    Part { name: "mips", rows: mips::rows },
+];

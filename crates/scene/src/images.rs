@@ -1,14 +1,14 @@
 //! The pictures that materials refer to: found, decoded once each, all cores at work.
 //!
-//! The store holds texels as they stand in the files. How they are coded (sRGB or linear), and their smaller levels, are
-//! the renderers' business, as one picture may be read both ways.
+//! The store holds texels as they stand in the files, but that colours of files with other profiles are brought to sRGB.
+//! Decoding sRGB, and smaller levels, are the renderers' business, as one picture may be read both ways.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Component, Path, PathBuf};
 
 use halfvector_graph::document::Document;
-use halfvector_graph::value::{ImageRef, Value};
-use halfvector_maps::{Image, Limits};
+use halfvector_graph::value::{ColorSpace, ImageRef, Value};
+use halfvector_maps::{Decoded, Image, Limits, Noted, Profile};
 use rayon::prelude::*;
 
 use crate::environment::read_limited;
@@ -22,7 +22,8 @@ pub const MAX_FILE_BYTES: u64 = 1 << 30;
 #[derive(Clone, Debug, Default)]
 pub struct ImageStore {
     images: Vec<Image>,
-    by_key: HashMap<ImageKey, usize>,
+    by_key: HashMap<(ImageKey, ColorSpace), usize>,
+    notes: Vec<String>,
 }
 
 /// Where a picture lies: a file, or an image within a glTF file.
@@ -68,9 +69,10 @@ pub enum ImageFault {
     Gltf(Box<GltfError>),
 }
 
-/// Who wants an image first, for messages.
+/// A file to be read, for colours, for data or for both, and who wants it first, for messages.
 struct Wanted {
     key: ImageKey,
+    spaces: BTreeSet<ColorSpace>,
     material: String,
     node: String,
 }
@@ -79,15 +81,20 @@ impl ImageStore {
     /// Loads what the materials refer to and is not here yet. Nodes that no surface reads from are passed over. When
     /// several images fail the first in order of materials and node ids is reported.
     pub fn load(&mut self, materials: &[SceneMaterial]) -> Result<(), ImageError> {
-        let mut seen: BTreeSet<ImageKey> = BTreeSet::new();
-        let mut wanted = Vec::new();
+        let mut places: HashMap<ImageKey, usize> = HashMap::new();
+        let mut wanted: Vec<Wanted> = Vec::new();
         for material in materials {
             for (node, label, image) in images_of(&material.document) {
                 let key = ImageKey::new(&material.directory, image);
-                if !self.by_key.contains_key(&key) && seen.insert(key.clone()) {
-                    let node = label.unwrap_or(node).to_owned();
-                    wanted.push(Wanted { key, material: material.document.name.clone(), node });
+                if self.by_key.contains_key(&(key.clone(), image.color_space)) {
+                    continue;
                 }
+                let place = *places.entry(key.clone()).or_insert_with(|| {
+                    let (material, node) = (material.document.name.clone(), label.unwrap_or(node).to_owned());
+                    wanted.push(Wanted { key, spaces: BTreeSet::new(), material, node });
+                    wanted.len() - 1
+                });
+                wanted[place].spaces.insert(image.color_space);
             }
         }
         let mut assets: BTreeMap<&Path, Asset> = BTreeMap::new();
@@ -97,17 +104,32 @@ impl ImageStore {
                 assets.insert(path, Asset::open(path).map_err(|error| want.failed(ImageFault::Gltf(error.into())))?);
             }
         }
-        let decoded: Result<Vec<Image>, ImageError> = wanted.par_iter().map(|want| decode(want, &assets)).collect();
-        for (want, image) in wanted.iter().zip(decoded?) {
-            self.by_key.insert(want.key.clone(), self.images.len());
-            self.images.push(image);
+        let read: Result<Vec<Vec<Read>>, ImageError> = wanted.par_iter().map(|want| read(want, &assets)).collect();
+        let mut files_by_note: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for (want, read) in wanted.iter().zip(read?) {
+            for Read { spaces, noted } in read {
+                for note in noted.notes {
+                    files_by_note.entry(note).or_default().push(want.file());
+                }
+                for space in spaces {
+                    self.by_key.insert((want.key.clone(), space), self.images.len());
+                }
+                self.images.push(noted.image);
+            }
         }
+        // Models come with many textures of one kind: each note is told once.
+        self.notes.extend(files_by_note.iter().map(|(note, files)| match files.as_slice() {
+            [file] => format!("{file}: {note}"),
+            [file, others @ ..] => format!("{file} and {} more: {note}", others.len()),
+            [] => note.clone(),
+        }));
         Ok(())
     }
 
-    /// The index of the picture that a document in `directory` means; the same for every way to read it.
+    /// The index of the picture that a document in `directory` means. Whether it is read as sRGB or linear makes a
+    /// difference only for files whose profile is neither.
     pub fn index(&self, directory: &Path, image: &ImageRef) -> Option<usize> {
-        self.by_key.get(&ImageKey::new(directory, image)).copied()
+        self.by_key.get(&(ImageKey::new(directory, image), image.color_space)).copied()
     }
 
     /// The picture that a document in `directory` means.
@@ -119,29 +141,67 @@ impl ImageStore {
     pub fn images(&self) -> &[Image] {
         &self.images
     }
+
+    /// What the user should know of how files were read: which profiles were applied, and which were not.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+}
+
+/// An image, and the ways to read it that it serves.
+struct Read {
+    spaces: Vec<ColorSpace>,
+    noted: Noted,
 }
 
 impl Wanted {
     fn failed(&self, fault: ImageFault) -> ImageError {
         ImageError { material: self.material.clone(), node: self.node.clone(), fault }
     }
+
+    /// The file, with `#N` for an image within a glTF file.
+    fn file(&self) -> String {
+        let path = self.key.path.display();
+        self.key.in_gltf.map_or_else(|| path.to_string(), |number| format!("{path}#{number}"))
+    }
 }
 
-fn decode(want: &Wanted, assets: &BTreeMap<&Path, Asset>) -> Result<Image, ImageError> {
-    let path = &want.key.path;
-    let decoded = |bytes: &[u8], file: String| {
-        halfvector_maps::decode(bytes, Limits::default())
-            .map_err(|source| want.failed(ImageFault::Decode { file, source: source.into() }))
+fn read(want: &Wanted, assets: &BTreeMap<&Path, Asset>) -> Result<Vec<Read>, ImageError> {
+    let failed = |source: halfvector_maps::DecodeError| {
+        want.failed(ImageFault::Decode { file: want.file(), source: source.into() })
     };
-    match (want.key.in_gltf, assets.get(path.as_path())) {
+    let decoded = |bytes: &[u8]| halfvector_maps::decode(bytes, Limits::default()).map_err(failed);
+    let path = &want.key.path;
+    let decoded = match (want.key.in_gltf, assets.get(path.as_path())) {
         (Some(number), Some(asset)) => {
             let bytes = asset.image_bytes(number).map_err(|error| want.failed(ImageFault::Gltf(error.into())))?;
-            decoded(&bytes, format!("{}#{number}", path.display()))
+            decoded(&bytes)?
         }
         _ => {
             let bytes = read_limited(path, MAX_FILE_BYTES)
                 .map_err(|reason| want.failed(ImageFault::Read { path: path.clone(), reason }))?;
-            decoded(&bytes, path.display().to_string())
+            decoded(&bytes)?
+        }
+    };
+    as_wanted(decoded, &want.spaces).map_err(failed)
+}
+
+/// One image for all ways to read it where the file's profile makes no difference, else one for each.
+fn as_wanted(decoded: Decoded, spaces: &BTreeSet<ColorSpace>) -> Result<Vec<Read>, halfvector_maps::DecodeError> {
+    let all: Vec<ColorSpace> = spaces.iter().copied().collect();
+    let of = |space: ColorSpace, decoded: Decoded| match space {
+        ColorSpace::Srgb => decoded.into_color(),
+        ColorSpace::Linear => Ok(decoded.into_data()),
+    };
+    match all.as_slice() {
+        [space] => Ok(vec![Read { noted: of(*space, decoded)?, spaces: all }]),
+        _ if decoded.profile().is_none_or(Profile::is_srgb) => {
+            Ok(vec![Read { noted: decoded.into_data(), spaces: all }])
+        }
+        spaces => {
+            let reads =
+                spaces.iter().map(|&space| Ok(Read { noted: of(space, decoded.clone())?, spaces: vec![space] }));
+            reads.collect()
         }
     }
 }

@@ -262,9 +262,12 @@ impl Scene {
         }
     }
 
-    /// Loads the images of all materials that are not loaded yet.
+    /// Loads the images of all materials that are not loaded yet, and takes over what is to be told about them.
     pub fn load_images(&mut self) -> Result<(), SceneError> {
-        Ok(self.images.load(&self.materials)?)
+        let told = self.images.notes().len();
+        self.images.load(&self.materials)?;
+        self.notes.extend_from_slice(&self.images.notes()[told..]);
+        Ok(())
     }
 
     /// The smallest box around all objects in world space; `None` when there is nothing.

@@ -7,6 +7,7 @@ mod gpu;
 mod hard_cases;
 mod signatures;
 mod table;
+mod texel;
 mod truth;
 
 use std::collections::BTreeSet;

@@ -9,7 +9,7 @@ use halfvector_brdf::{
     visibility,
 };
 use halfvector_ibl::{environment, occlusion};
-use halfvector_maps::{blend, color, derivative, height, normal, octahedral, parallax};
+use halfvector_maps::{blend, color, derivative, height, normal, octahedral, parallax, texel};
 use halfvector_scene::light::{
     DirectionalLight, LightSample, PointLight, SpotLight, directional_light_sample, point_light_sample,
     spot_light_sample,
@@ -219,6 +219,10 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("maps/octahedral.wgsl" "octahedral_from_direction", [Unit], 8.0, 1.0, DOUBLE, |x| octahedral::octahedral_from_direction(v(x, 0))),
     // At grazing incidence the way is 20 times the depth, and the cosine that it is divided by a difference.
     twin!("maps/parallax.wgsl" "parallax_offset", [Unit, Unit, TangentOfLast, Range(0.0, 0.2)], 128.0, 4.0, DOUBLE, |x| parallax::parallax_offset(v(x, 0), v(x, 3), v(x, 6), x[10])),
+    // A texel whose three codes are near 128 has a direction of rounding noise: blue well above it here.
+    twin!("maps/texel.wgsl" "normal_from_texel_snorm", [Pair(0.0, 1.0), Range(0.7, 1.0), Range(0.0, 2.0), Bool], 16.0, 1.0, DOUBLE, |x| texel::normal_from_texel_snorm(v(x, 0), x[3], x[4] != 0.0)),
+    // Near the rim of the unit circle z is the root of what rounding leaves: inside of it here, the rim in the tests of maps.
+    twin!("maps/texel.wgsl" "normal_from_texel_two_channel", [Color(0.2, 0.8), Range(0.0, 2.0), Bool], 16.0, 1.0, DOUBLE, |x| texel::normal_from_texel_two_channel(v(x, 0), x[3], x[4] != 0.0)),
     twin!("math.wgsl" "finite_or_zero", [Color(-1e38, 1e38)], 0.0, 0.0, DOUBLE, |x| math::finite_or_zero(v(x, 0))),
     twin!("math.wgsl" "normalize_or", [Vector, Unit], 6.0, 0.0, DOUBLE, |x| math::normalize_or(v(x, 0), v(x, 3))),
     twin!("math.wgsl" "pow5", [Range(-2.0, 2.0)], 3.0, 0.0, DOUBLE, |x| [math::pow5(x[0])]),

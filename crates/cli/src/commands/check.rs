@@ -109,8 +109,13 @@ fn problems(material: &SceneMaterial) -> Vec<Problem> {
     if problems.iter().any(|problem| problem.severity == Severity::Error) {
         return problems;
     }
-    if let Err(error) = ImageStore::default().load(std::slice::from_ref(material)) {
+    let mut images = ImageStore::default();
+    if let Err(error) = images.load(std::slice::from_ref(material)) {
         problems.push(of_document(error.to_string()));
+    }
+    problems.extend(halfvector_scene::normal_map_problems(material, &images));
+    for text in images.notes() {
+        note(format_args!("note: {text}"));
     }
     if let Err(message) = shader(document) {
         problems.push(of_document(message));

@@ -1,6 +1,6 @@
-//! Ordinary images as environments: PNG, JPEG, TIFF, WebP, TGA, BMP, read by the crate of texture maps.
+//! Ordinary images as environments: PNG, JPEG, TIFF, WebP, TGA, BMP, QOI, read by the crate of texture maps.
 //!
-//! Codes are sRGB and become linear radiance 0..1; float TIFF files are taken as linear. Alpha is ignored.
+//! Codes are sRGB, or what the file's profile says, and become linear radiance 0..1; float TIFF files are taken as linear. Alpha is ignored.
 
 use super::{Fault, Limits, checked_texels};
 use crate::equirect::Equirect;
@@ -15,7 +15,8 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<(Equirect, bool), Fau
         max_texels: limits.max_texels,
         ..halfvector_maps::Limits::default()
     };
-    let image = halfvector_maps::decode(bytes, limits_of_image).map_err(Fault::Image)?;
+    let decoded = halfvector_maps::decode(bytes, limits_of_image).and_then(halfvector_maps::Decoded::into_color);
+    let image = decoded.map_err(Fault::Image)?.image;
     let (width, height) = (image.width() as usize, image.height() as usize);
     checked_texels(width as u64, height as u64, limits)?;
     let linear = |codes: [f32; 3]| linear_from_srgb(codes);

@@ -2,9 +2,14 @@
 
 use std::io::Cursor;
 
-use halfvector_maps::{Channels, DecodeError, Image, Limits, Texels, decode};
+use halfvector_maps::{Channels, DecodeError, Image, Limits, Texels};
 use image::{DynamicImage, ExtendedColorType, ImageFormat};
 use proptest::prelude::*;
+
+/// The values of a file as they stand in it.
+pub(crate) fn decode(bytes: &[u8], limits: Limits) -> Result<Image, DecodeError> {
+    halfvector_maps::decode(bytes, limits).map(|decoded| decoded.into_data().image)
+}
 
 const WIDTH: u32 = 19;
 const HEIGHT: u32 = 11;
@@ -59,16 +64,16 @@ fn dynamic(color: ExtendedColorType) -> DynamicImage {
     }
 }
 
-fn file(format: ImageFormat, color: ExtendedColorType) -> Vec<u8> {
+pub(crate) fn file(format: ImageFormat, color: ExtendedColorType) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     dynamic(color).write_to(&mut bytes, format).expect("the encoder takes this colour type");
     bytes.into_inner()
 }
 
 /// What each writer can write.
-const KINDS: [(ImageFormat, ExtendedColorType); 24] = {
+pub(crate) const KINDS: [(ImageFormat, ExtendedColorType); 26] = {
     use ExtendedColorType::{L8, L16, La8, La16, Rgb8, Rgb16, Rgb32F, Rgba8, Rgba16, Rgba32F};
-    use ImageFormat::{Bmp, Jpeg, Png, Tga, Tiff, WebP};
+    use ImageFormat::{Bmp, Jpeg, Png, Qoi, Tga, Tiff, WebP};
     [
         (Png, L8),
         (Png, La8),
@@ -93,6 +98,8 @@ const KINDS: [(ImageFormat, ExtendedColorType); 24] = {
         (Tga, Rgba8),
         (Bmp, Rgb8),
         (Bmp, Rgba8),
+        (Qoi, Rgb8),
+        (Qoi, Rgba8),
         (Jpeg, Rgb8),
     ]
 };
@@ -211,10 +218,20 @@ fn lying_headers_are_refused() {
     let frame = jpeg.windows(2).position(|w| w[0] == 0xff && matches!(w[1], 0xc0..=0xc2)).unwrap();
     jpeg[frame + 5..frame + 9].fill(0xff);
     too_large(&jpeg);
+
+    let mut qoi = file(ImageFormat::Qoi, ExtendedColorType::Rgb8);
+    qoi[4..12].copy_from_slice(&[0x00, 0x00, 0xff, 0xff, 0x00, 0x00, 0xff, 0xff]);
+    too_large(&qoi);
+
+    let mut webp = file(ImageFormat::WebP, ExtendedColorType::Rgba8);
+    let stream = webp.windows(4).position(|w| w == b"VP8L").unwrap() + 8;
+    // 14 bits each of width - 1 and height - 1: 16384, the most there is, which the texels' memory refuses.
+    webp[stream + 1..stream + 5].copy_from_slice(&[0xff, 0xff, 0xff, 0x0f]);
+    assert!(decode(&webp, Limits { max_bytes: 1 << 24, ..Limits::default() }).is_err());
 }
 
 /// PNG's CRC (ISO/IEC 15948, annex D).
-fn crc32(bytes: &[u8]) -> u32 {
+pub(crate) fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0_u32, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg()))
     })
@@ -258,7 +275,7 @@ fn a_panic_of_a_decoder_is_an_error() {
 fn other_files_are_named() {
     let message = |bytes: &[u8]| decode(bytes, Limits::default()).unwrap_err().to_string();
     assert!(message(b"").contains("empty"));
-    assert!(message(b"just some text that is long enough").contains("PNG, JPEG, TIFF, WebP, TGA or BMP"));
+    assert!(message(b"just some text that is long enough").contains("PNG, JPEG, TIFF, WebP, TGA, BMP or QOI"));
     assert!(message(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n").starts_with("HDR image"));
     assert!(message(&[0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0]).starts_with("OpenEXR image"));
     assert!(message(b"GIF89a\x01\x00\x01\x00\x00\x00\x00").starts_with("gif image"));
@@ -317,7 +334,7 @@ proptest! {
     fn noise_does_not_panic(
         signature in prop::sample::select(vec![
             &b"\x89PNG\r\n\x1a\n"[..], b"\xff\xd8\xff\xe0", b"II*\0", b"MM\0*", b"RIFF\0\0\0\0WEBPVP8 ", b"RIFF\0\0\0\0WEBPVP8L",
-            b"RIFF\0\0\0\0WEBPVP8X", b"BM", b"\0\0\x02", b"\0\x01\x01", b"",
+            b"RIFF\0\0\0\0WEBPVP8X", b"BM", b"\0\0\x02", b"\0\x01\x01", b"qoif", b"MM\0\x2b\0\x08\0\0", b"",
         ]),
         noise in prop::collection::vec(any::<u8>(), 0..400),
     ) {

@@ -1,16 +1,29 @@
 //! What the crate promises, from outside: hard cases, exhaustive texels, files, mip chains, tangents, angle errors.
 
+mod agreement;
 mod angle_error;
 mod batch;
 mod blend;
 mod decode;
 mod exhaustive;
+mod fuzz_corpus;
 mod hard_cases;
+mod lost_length;
 mod mip;
+mod pack;
+mod profiles;
 mod relief;
 mod tangents;
+mod texel;
+mod tiff_files;
 
 use halfvector_maps::Real;
+
+/// The folder of data that nobody on the project wrote.
+fn data() -> std::path::PathBuf {
+    std::env::var_os("HALFVECTOR_DATA")
+        .map_or_else(|| concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data").into(), Into::into)
+}
 
 /// x as a number of type R.
 fn r<R: Real>(x: f64) -> R {

@@ -5,5 +5,6 @@ mod examples;
 mod gltf;
 mod gltf_material;
 mod hostile;
+mod images;
 mod scene_file;
 mod support;

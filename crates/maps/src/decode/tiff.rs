@@ -1,0 +1,198 @@
+//! TIFF files: grey, palette, RGB, with alpha or without; 1 to 16 bits, and 16- to 64-bit floats.
+//! Does not read separate planes, CMYK, YCbCr or Lab.
+
+use std::io::Cursor;
+
+use tiff::decoder::ifd::Value;
+use tiff::decoder::{Decoder, DecodingResult, Limits as TiffLimits};
+use tiff::tags::Tag;
+use tiff::{ColorType, TiffError};
+
+use super::{DecodeError, Limits, Parts, check_size, finite, spread};
+use crate::image::{Channels, Texels};
+use crate::profile::{Profile, REC709};
+
+const NAME: &str = "TIFF";
+const PHOTOMETRIC: u16 = 262;
+const PALETTE: u16 = 3;
+const BLACK_IS_ZERO: u16 = 1;
+const TRANSFER_FUNCTION: Tag = Tag::Unknown(301);
+const WHITE_POINT: Tag = Tag::Unknown(318);
+const PRIMARIES: Tag = Tag::Unknown(319);
+const ICC_PROFILE: Tag = Tag::Unknown(34_675);
+/// Largest palette, profile or table of strips in bytes.
+const MAX_TAG_BYTES: usize = 16 << 20;
+
+/// Reads the first image of the file.
+pub(super) fn decode(bytes: &[u8], limits: Limits) -> Result<Parts, DecodeError> {
+    // The decoder has no palettes: the file is read as grey, which are the indices.
+    let patched = palette_as_grey(bytes);
+    let mut decoder = Decoder::new(Cursor::new(patched.as_deref().unwrap_or(bytes))).map_err(explained)?;
+    let max_bytes = usize::try_from(limits.max_bytes).unwrap_or(usize::MAX);
+    let mut tiff_limits = TiffLimits::default();
+    tiff_limits.decoding_buffer_size = max_bytes;
+    tiff_limits.intermediate_buffer_size = max_bytes;
+    tiff_limits.ifd_value_size = MAX_TAG_BYTES.min(max_bytes);
+    decoder = decoder.with_limits(tiff_limits);
+
+    let (width, height) = decoder.dimensions().map_err(explained)?;
+    let (channels, bits) = match decoder.colortype().map_err(explained)? {
+        ColorType::Gray(bits) => (Channels::Grey, bits),
+        ColorType::Multiband { bit_depth: bits, num_samples: 2 } => (Channels::GreyAlpha, bits),
+        ColorType::RGB(bits) => (Channels::Rgb, bits),
+        ColorType::RGBA(bits) => (Channels::Rgba, bits),
+        other => return Err(unsupported(&format!("the colour type {other:?}"))),
+    };
+    if decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(explained)?.is_some_and(|plan| plan != 1) {
+        return Err(unsupported("separate planes (PlanarConfiguration 2)"));
+    }
+    if patched.is_some() && channels != Channels::Grey {
+        return Err(unsupported("a palette with more than one channel"));
+    }
+    let sample_bytes = usize::from(bits).div_ceil(8);
+    // Few bits are unpacked to 8 in a copy of their own.
+    let read_bytes = channels.count() * sample_bytes * if bits < 8 { 2 } else { 1 };
+    let stored_bytes = if patched.is_some() {
+        8
+    } else if sample_bytes > 2 {
+        16
+    } else {
+        4 * sample_bytes.max(1)
+    };
+    let copy_bytes = patched.as_ref().map_or(0, Vec::len);
+    check_size(NAME, [width, height], read_bytes + stored_bytes, copy_bytes, limits)?;
+
+    let stored = if patched.is_some() { Channels::Rgb } else { channels };
+    let profile = profile(&mut decoder, stored == Channels::Grey);
+    let extra = decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples).map_err(explained)?.unwrap_or_default();
+    let notes = if extra.first() == Some(&1) && stored.has_alpha() {
+        vec!["its colours are multiplied by alpha already and are taken as they are".to_owned()]
+    } else {
+        Vec::new()
+    };
+    let palette = match patched {
+        Some(_) => Some(decoder.get_tag_u16_vec(Tag::ColorMap).map_err(explained)?),
+        None => None,
+    };
+    let values = decoder.read_image().map_err(explained)?;
+    let values = match values {
+        DecodingResult::U8(packed) if bits < 8 => DecodingResult::U8(unpacked(&packed, bits, width as usize)),
+        other => other,
+    };
+    let texels = match (values, palette) {
+        (DecodingResult::U8(values), Some(map)) => colored(values.iter().map(|&i| usize::from(i)), &map),
+        (DecodingResult::U16(values), Some(map)) => colored(values.iter().map(|&i| usize::from(i)), &map),
+        (DecodingResult::U8(values), None) => {
+            let top = (1_u32 << bits.min(8)) - 1;
+            Texels::U8(spread(&values, channels, 255, |v| (u32::from(v) * 255 / top) as u8))
+        }
+        (DecodingResult::U16(values), None) => Texels::U16(spread(&values, channels, 65_535, |v| v)),
+        (DecodingResult::F16(values), None) => Texels::F32(spread(&values, channels, 1.0, |v| finite(v.to_f32()))),
+        (DecodingResult::F32(values), None) => Texels::F32(spread(&values, channels, 1.0, finite)),
+        (DecodingResult::F64(values), None) => Texels::F32(spread(&values, channels, 1.0, |v| finite(v as f32))),
+        _ => return Err(unsupported("signed or 32-bit integers")),
+    };
+    Ok(Parts { width, height, channels: stored, texels, profile, notes })
+}
+
+/// A copy of the file that says grey where it says palette, or nothing for other files.
+fn palette_as_grey(bytes: &[u8]) -> Option<Vec<u8>> {
+    let big_endian = bytes.starts_with(b"MM");
+    let number = |at: usize, length: usize| -> Option<usize> {
+        let field = bytes.get(at..at.checked_add(length)?)?;
+        let add = |n: usize, &b: &u8| n.checked_mul(256)?.checked_add(usize::from(b));
+        if big_endian { field.iter().try_fold(0, add) } else { field.iter().rev().try_fold(0, add) }
+    };
+    // A directory is a count and entries of tag, type, count, value; BigTIFF widens all but tag and type.
+    let (start, count_length, entry_length, value_at) = match number(2, 2)? {
+        42 => (number(4, 4)?, 2, 12, 8),
+        43 => (number(8, 8)?, 8, 20, 12),
+        _ => return None,
+    };
+    let count = number(start, count_length)?;
+    let first = start.checked_add(count_length)?;
+    let entries = (0..count.min(65_536)).map_while(|i| first.checked_add(i * entry_length));
+    let entry = entries.map_while(|at| Some((at, number(at, 2)?))).find(|&(_, tag)| tag == usize::from(PHOTOMETRIC))?.0;
+    let value = entry.checked_add(value_at)?;
+    if number(value, 2)? != usize::from(PALETTE) {
+        return None;
+    }
+    let mut patched = bytes.to_vec();
+    let grey = if big_endian { BLACK_IS_ZERO.to_be_bytes() } else { BLACK_IS_ZERO.to_le_bytes() };
+    patched.get_mut(value..value + 2)?.copy_from_slice(&grey);
+    Some(patched)
+}
+
+/// One byte per sample from rows that are packed tightly and begin on whole bytes.
+fn unpacked(packed: &[u8], bits: u8, width: usize) -> Vec<u8> {
+    let per_byte = usize::from(8 / bits.clamp(1, 8));
+    let mask = ((1_u32 << bits) - 1) as u8;
+    let row = |row: &[u8]| {
+        let sample = |x: usize| (row[x / per_byte] >> (8 - usize::from(bits) * (x % per_byte + 1))) & mask;
+        (0..width).map(sample).collect::<Vec<_>>()
+    };
+    packed.chunks_exact(width.div_ceil(per_byte)).flat_map(row).collect()
+}
+
+/// The palette's colours: all reds, all greens, all blues, 16 bits each. Most writers have 8 bits and repeat them or put
+/// them in the upper half; such become 8-bit images. An index past the end is black.
+fn colored(indices: impl Iterator<Item = usize>, map: &[u16]) -> Texels {
+    let size = map.len() / 3;
+    let has_8_bits = map.iter().all(|&c| c & 0xff == 0) || map.iter().all(|&c| c & 0xff == c >> 8);
+    let color = |i: usize| {
+        let channel = |k: usize| if i < size { map[k * size + i] } else { 0 };
+        [channel(0), channel(1), channel(2), 65_535]
+    };
+    if has_8_bits {
+        Texels::U8(indices.map(|i| color(i).map(|c| (c >> 8) as u8)).collect())
+    } else {
+        Texels::U16(indices.map(color).collect())
+    }
+}
+
+/// An ICC profile, or what TIFF 6.0 (1992), section 20, has instead.
+fn profile(decoder: &mut Decoder<Cursor<&[u8]>>, is_grey: bool) -> Option<Profile> {
+    if let Ok(Some(value)) = decoder.find_tag(ICC_PROFILE) {
+        return Some(match value.into_u8_vec() {
+            Ok(icc) => Profile::from_icc(&icc, is_grey),
+            Err(_) => Profile::refused("ICC profile", "it is damaged"),
+        });
+    }
+    if let Ok(Some(_)) = decoder.find_tag(TRANSFER_FUNCTION) {
+        return Some(Profile::refused("TIFF TransferFunction", "only ICC profiles are read"));
+    }
+    let primaries = rationals(decoder.find_tag(PRIMARIES).ok()??);
+    let white = decoder.find_tag(WHITE_POINT).ok().flatten().map_or_else(|| REC709[0].to_vec(), rationals);
+    let (&[rx, ry, gx, gy, bx, by], &[wx, wy]) = (primaries.as_slice(), white.as_slice()) else {
+        return Some(Profile::refused("TIFF PrimaryChromaticities", "they are not six fractions and a white of two"));
+    };
+    let xy = [[wx, wy], [rx, ry], [gx, gy], [bx, by]];
+    Some(Profile::from_gamma("TIFF PrimaryChromaticities".to_owned(), None, Some(xy)))
+}
+
+/// Fractions of whole numbers; anything else is left out.
+fn rationals(value: Value) -> Vec<f64> {
+    let number = |value: &Value| match *value {
+        Value::Rational(over, under) if under > 0 => Some(f64::from(over) / f64::from(under)),
+        _ => None,
+    };
+    match value {
+        Value::List(values) => values.iter().filter_map(number).collect(),
+        value => number(&value).into_iter().collect(),
+    }
+}
+
+fn unsupported(what: &str) -> DecodeError {
+    DecodeError::Unsupported { format: NAME, what: what.to_owned() }
+}
+
+fn explained(error: TiffError) -> DecodeError {
+    match error {
+        TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            DecodeError::Truncated { format: NAME }
+        }
+        TiffError::UnsupportedError(what) => unsupported(&what.to_string()),
+        TiffError::LimitsExceeded => unsupported("an image that needs more memory than the limit"),
+        other => DecodeError::Damaged { format: NAME, reason: other.to_string() },
+    }
+}
