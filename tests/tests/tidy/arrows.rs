@@ -9,6 +9,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("crates/brdf", &[]),
     ("crates/maps", &[]),
     ("crates/ibl", &["brdf", "maps"]),
+    ("crates/interp", &[]),
     ("crates/graph", &["shaders"]),
     ("crates/codegen", &["graph", "shaders"]),
     ("crates/scene", &["graph", "maps", "ibl"]),

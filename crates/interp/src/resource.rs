@@ -1,0 +1,124 @@
+//! What a program is run with: columns of numbers, buffers, textures, limits.
+
+use crate::real::Float;
+use crate::texture::{Sampler, Texture};
+
+/// Numbers of one scalar, one for each invocation or one for all.
+#[derive(Clone, Copy, Debug)]
+pub enum Column<'a, F> {
+    /// f32 of the shader, in the scalar of the run.
+    Float(&'a [F]),
+    /// f64 of the shader.
+    Double(&'a [f64]),
+    /// i32 (two's complement), u32, or bool (0 is false).
+    Word(&'a [u32]),
+}
+
+/// Numbers of one scalar of the result.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OutputColumn<F> {
+    /// f32 of the shader.
+    Float(Vec<F>),
+    /// f64 of the shader.
+    Double(Vec<f64>),
+    /// i32, u32, or bool (0 or 1).
+    Word(Vec<u32>),
+}
+
+impl<F: Float> OutputColumn<F> {
+    /// The numbers as f64; words as unsigned integers.
+    pub fn to_f64(&self) -> Vec<f64> {
+        match self {
+            OutputColumn::Float(all) => all.iter().map(|x| x.to_f64()).collect(),
+            OutputColumn::Double(all) => all.clone(),
+            OutputColumn::Word(all) => all.iter().map(|x| f64::from(*x)).collect(),
+        }
+    }
+}
+
+/// The results of a run; its memory is kept from run to run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outputs<F> {
+    /// One column for each scalar of the result.
+    pub columns: Vec<OutputColumn<F>>,
+    /// Which invocations were discarded; their results mean nothing.
+    pub killed: Vec<bool>,
+}
+
+/// How derivatives are taken.
+#[derive(Clone, Copy, Debug)]
+pub enum Derivatives<'a, F> {
+    /// All are 0: textures are read at their finest level.
+    Zero,
+    /// Invocations come in fours: a pixel, its right neighbour, the one below, the one below that to the right.
+    Quads,
+    /// How much each input changes from one pixel to the next along x and along y: columns as those of the inputs.
+    /// Derivatives are differences over that step. Words do not change. Costs four times as much where the program takes
+    /// derivatives, and nothing elsewhere.
+    Given {
+        /// Change of each input along x.
+        ddx: &'a [Column<'a, F>],
+        /// Change of each input along y.
+        ddy: &'a [Column<'a, F>],
+    },
+}
+
+/// What a run may cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Most steps of one batch.
+    pub steps: u64,
+    /// Most bytes of registers.
+    pub bytes: u64,
+}
+
+impl Default for Limits {
+    /// 64 million steps (at most some seconds) and 256 MiB.
+    fn default() -> Self {
+        Limits { steps: 1 << 26, bytes: 1 << 28 }
+    }
+}
+
+/// The buffers, textures and samplers of a module by `@group` and `@binding`. Those that the program does not read may be
+/// missing.
+#[derive(Clone, Debug, Default)]
+pub struct Resources<'a> {
+    buffers: Vec<((u32, u32), &'a [u8])>,
+    textures: Vec<((u32, u32), &'a Texture)>,
+    samplers: Vec<((u32, u32), Sampler)>,
+}
+
+impl<'a> Resources<'a> {
+    /// Adds a uniform or storage buffer: bytes in the layout of WGSL, little-endian.
+    #[must_use]
+    pub fn buffer(mut self, group: u32, binding: u32, bytes: &'a [u8]) -> Self {
+        self.buffers.push(((group, binding), bytes));
+        self
+    }
+
+    /// Adds a texture.
+    #[must_use]
+    pub fn texture(mut self, group: u32, binding: u32, texture: &'a Texture) -> Self {
+        self.textures.push(((group, binding), texture));
+        self
+    }
+
+    /// Adds a sampler.
+    #[must_use]
+    pub fn sampler(mut self, group: u32, binding: u32, sampler: Sampler) -> Self {
+        self.samplers.push(((group, binding), sampler));
+        self
+    }
+
+    pub(crate) fn find_buffer(&self, at: (u32, u32)) -> Option<&'a [u8]> {
+        self.buffers.iter().find(|(place, _)| *place == at).map(|(_, bytes)| *bytes)
+    }
+
+    pub(crate) fn find_texture(&self, at: (u32, u32)) -> Option<&'a Texture> {
+        self.textures.iter().find(|(place, _)| *place == at).map(|(_, texture)| *texture)
+    }
+
+    pub(crate) fn find_sampler(&self, at: (u32, u32)) -> Option<Sampler> {
+        self.samplers.iter().find(|(place, _)| *place == at).map(|(_, sampler)| *sampler)
+    }
+}

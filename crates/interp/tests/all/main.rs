@@ -1,0 +1,11 @@
+//! Tests of the interpreter that need neither a device nor another crate of ours.
+
+mod constants;
+mod derivatives;
+mod elementary;
+mod flow;
+mod hostile;
+mod semantics;
+mod support;
+mod textures;
+mod values;
