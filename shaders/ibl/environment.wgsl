@@ -38,11 +38,11 @@ fn irradiance_sh2(coefficients: array<vec4f, 9>, dir: vec3f) -> vec3f {
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for sqrt(n_dot_v) and along y for the perceptual roughness: both ends of each range are texels, and grazing
-/// angles, where the albedo changes within n_dot_v of about alpha, have the most of them.
+/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness));
+    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }

@@ -9,20 +9,27 @@
 //! Nothing here panics. Each function names its domain, where it never returns NaN, an infinity or a negative number;
 //! the lobes (`*_eval`, `*_environment`) return finite numbers for any input whatever.
 
+pub mod albedo;
 pub mod anisotropic;
 pub mod beckmann;
+pub mod coupling;
 pub mod dfg;
 pub mod diffuse;
 pub mod frame;
 pub mod fresnel;
 pub mod ggx;
+pub mod lobe_coat;
 pub mod lobe_diffuse;
+pub mod lobe_multiscatter;
+pub mod lobe_sampling;
 pub mod lobe_specular;
+pub mod lobe_transmission;
 pub mod math;
 pub mod metallic_roughness;
 pub mod multiscatter;
 mod real;
 pub mod sampling;
+pub mod sampling_bounded;
 pub mod sheen;
 pub mod thin_film;
 pub mod vector;

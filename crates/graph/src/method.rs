@@ -94,7 +94,19 @@ pub const TERMS: &[Term] = &[
         help: "energy that single scattering loses",
         methods: &[
             method("turquin", Some("energy_compensation"), "Turquin 2019: 1 + f0 (1/E - 1)"),
+            method("fdez_aguera", Some("energy_compensation_fdez_aguera"), "Fdez-Aguera 2019: 1 / (1 - F_avg (1 - E))"),
+            method("kulla_conty", None, "Kulla and Conty 2017: a reciprocal lobe of its own"),
             method("none", None, "single scattering only"),
+        ],
+        report: "none",
+    },
+    Term {
+        name: "coupling",
+        help: "what a dielectric's reflection leaves to the diffuse base under it",
+        methods: &[
+            method("view", None, "OpenPBR 1.1, albedo scaling: 1 - E(v); white reflects what arrives"),
+            method("reciprocal", None, "Shirley et al. 1997: (1 - E(v)) (1 - E(l)) / (1 - E_avg)"),
+            method("none", None, "the base is lit as if nothing lay over it"),
         ],
         report: "none",
     },
@@ -103,6 +115,7 @@ pub const TERMS: &[Term] = &[
         help: "directional albedo of the specular lobe",
         methods: &[
             method("table", None, "Karis 2013: a table over n.v and perceptual roughness"),
+            method("fit", Some("dfg_fit"), "analytic fit of our own, no texture"),
             method("karis", Some("dfg_karis"), "Karis 2014: analytic fit"),
         ],
         report: "table",

@@ -61,8 +61,8 @@ pub fn irradiance_sh2<R: Real>(coefficients: [[R; 4]; 9], dir: [R; 3]) -> [R; 3]
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for sqrt(n_dot_v) and along y for the perceptual roughness: both ends of each range are texels, and grazing
-/// angles, where the albedo changes within n_dot_v of about alpha, have the most of them.
+/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 pub fn dfg_from_table(table: &DfgTable, n_dot_v: f64, perceptual_roughness: f64) -> [f32; 2] {
     let last = table.size - 1;
     let place = |x: f64| {
@@ -70,7 +70,7 @@ pub fn dfg_from_table(table: &DfgTable, n_dot_v: f64, perceptual_roughness: f64)
         let low = (x.floor() as usize).min(last);
         (low, (low + 1).min(last), (x - low as f64) as f32)
     };
-    let ((x0, x1, s), (y0, y1, t)) = (place(n_dot_v.sqrt()), place(perceptual_roughness));
+    let ((x0, x1, s), (y0, y1, t)) = (place(n_dot_v.sqrt().sqrt()), place(perceptual_roughness.sqrt()));
     let at = |x: usize, y: usize| table.texels[y * table.size + x];
     std::array::from_fn(|i| {
         let above = at(x0, y0)[i] + (at(x1, y0)[i] - at(x0, y0)[i]) * s;

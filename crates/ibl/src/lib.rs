@@ -28,7 +28,7 @@ mod resample;
 pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, bake};
 pub use builtin::{sky, studio, white};
 pub use cube::{Cube, direction_from_face, face_from_direction, texel_solid_angle};
-pub use dfg::{DfgTable, Visibility, dfg, dfg_table, dfg_table_with};
+pub use dfg::{DFG_SIZE, DfgTable, Visibility, dfg, dfg_table, dfg_table_with};
 pub use equirect::{Equirect, direction_from_equirect, equirect_from_direction};
 pub use load::{Format, Limits, LoadError, LoadedEnvironment, Source, StoredLevels, load, load_within};
 pub use repair::{MAX_RADIANCE, Repairs, repair};

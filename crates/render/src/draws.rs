@@ -10,7 +10,7 @@ use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::Needs;
 use halfvector_graph::value::{ColorSpace, ImageRef};
-use halfvector_ibl::{BakedEnvironment, Visibility, dfg_table_with};
+use halfvector_ibl::{BakedEnvironment, DFG_SIZE, Visibility, dfg_table_with};
 use halfvector_scene::{Object, Scene, SceneMaterial};
 
 use crate::device::Gpu;
@@ -85,9 +85,6 @@ impl<'e> EnvironmentTextures<'e> {
         self.dfg.get_or_insert_with(table).clone()
     }
 }
-
-/// Texels on a side of the (scale, bias) table.
-const DFG_SIZE: usize = 64;
 
 /// Makes a scene ready: shaders of the materials that objects use, textures, buffers, and the order of drawing.
 pub(crate) fn prepare(

@@ -1,6 +1,7 @@
 //! The parts of the report: what is measured, each in a file of its own.
 
 pub mod brdf;
+pub mod energy;
 pub mod maps;
 pub mod mips;
 
@@ -17,6 +18,7 @@ pub struct Part {
 /// All parts, in the order shown.
 pub const PARTS: &[Part] = &[
     Part { name: "brdf", rows: brdf::rows },
+    Part { name: "energy", rows: energy::rows },
     Part { name: "maps", rows: maps::rows },
     Part { name: "mips", rows: mips::rows },
 ];

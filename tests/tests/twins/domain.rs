@@ -39,6 +39,8 @@ pub(crate) enum Domain {
     Frame,
     /// A unit direction in front of the frame before.
     FrontOfLast,
+    /// A unit direction behind the frame before.
+    BackOfLast,
     /// Nine coefficients in [-1, 1], four components each.
     Harmonics,
 }
@@ -209,6 +211,11 @@ impl Domain {
                     return out.extend(light);
                 }
             },
+            Domain::BackOfLast => {
+                Domain::FrontOfLast.draw(n, out);
+                let at = out.len() - 3;
+                out[at..].iter_mut().for_each(|x| *x = -*x);
+            }
             Domain::Harmonics => out.extend([0; 36].map(|_| n.range(-1.0, 1.0))),
         }
     }

@@ -2,10 +2,17 @@
 //! how far apart they may be. A test proves that no function is missing.
 
 use halfvector_brdf::frame::{Frame, frame_from_normal, half_from_light};
+use halfvector_brdf::lobe_coat::{Coat, coat_base, coat_environment, coat_eval};
 use halfvector_brdf::lobe_diffuse::{Diffuse, diffuse_environment, diffuse_eval};
+use halfvector_brdf::lobe_multiscatter::{
+    Multiscatter, multiscatter_environment, multiscatter_eval, multiscatter_from_dfg,
+};
 use halfvector_brdf::lobe_specular::{Specular, specular_environment, specular_eval};
+use halfvector_brdf::lobe_transmission::{
+    Transmission, transmission_direction, transmission_environment, transmission_eval, transmission_thin_eval,
+};
 use halfvector_brdf::{
-    anisotropic, beckmann, dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter, sheen, thin_film,
+    anisotropic, beckmann, coupling, dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter, sheen, thin_film,
     visibility,
 };
 use halfvector_ibl::{environment, occlusion};
@@ -102,6 +109,18 @@ fn diffuse(x: &[f64], at: usize) -> Diffuse<f64> {
     Diffuse { color: v(x, at), perceptual_roughness: x[at + 3] }
 }
 
+fn coat(x: &[f64], at: usize) -> Coat<f64> {
+    Coat { weight: x[at], color: v(x, at + 1), f0: x[at + 4], alpha: x[at + 5] }
+}
+
+fn transmitted(x: &[f64], at: usize) -> Transmission<f64> {
+    Transmission { color: v(x, at), eta: x[at + 3], alpha: x[at + 4] }
+}
+
+fn multiscatter(x: &[f64]) -> Multiscatter<f64> {
+    Multiscatter { color: v(x, 0), loss: x[3], average_loss: x[4] }
+}
+
 fn sample(s: LightSample<f64>) -> [f64; 6] {
     let ([x, y, z], [r, g, b]) = (s.dir, s.illuminance);
     [x, y, z, r, g, b]
@@ -117,6 +136,10 @@ pub(crate) const TWINS: &[Twin] = &[
     // Where Walter's fit goes to 0, at a = 1.6, it is a difference.
     twin!("brdf/beckmann.wgsl" "v_smith_beckmann_correlated", [Cosine, Cosine, Cosine, Alpha], 32.0, 0.0, DOUBLE, |x| [beckmann::v_smith_beckmann_correlated(x[0], x[1], x[2], x[3])]),
     twin!("brdf/beckmann.wgsl" "v_smith_beckmann_separable", [Cosine, Cosine, Cosine, Alpha], 32.0, 0.0, DOUBLE, |x| [beckmann::v_smith_beckmann_separable(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/coupling.wgsl" "coupling_compensated", [Range(0.0, 0.2), Range(0.0, 1.0), Pair(0.0, 0.5)], 8.0, 1.0, DOUBLE, |x| [coupling::coupling_compensated(x[0], x[1], v(x, 2))]),
+    twin!("brdf/coupling.wgsl" "coupling_light", [Range(0.0, 0.2), Range(0.0, 1.0), Pair(0.0, 0.5), Roughness], 8.0, 1.0, DOUBLE, |x| [coupling::coupling_light(x[0], x[1], v(x, 2), x[4])]),
+    twin!("brdf/coupling.wgsl" "coupling_single", [Range(0.0, 0.2), Range(0.0, 1.0), Pair(0.0, 0.5)], 4.0, 1.0, DOUBLE, |x| [coupling::coupling_single(x[0], x[1], v(x, 2))]),
+    twin!("brdf/dfg.wgsl" "dfg_fit", [Range(0.001, 1.0), Range(0.02, 1.0)], 256.0, 1.0, DOUBLE, |x| dfg::dfg_fit(x[0], x[1])),
     twin!("brdf/dfg.wgsl" "dfg_karis", [Cosine, Roughness], 16.0, 1.0, FLOAT, |x| dfg::dfg_karis(x[0], x[1])),
     twin!("brdf/dfg.wgsl" "specular_albedo", [Reflectances(1.0), Pair(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| dfg::specular_albedo(v(x, 0), v(x, 3), v(x, 6))),
     twin!("brdf/diffuse.wgsl" "average_albedo_fon", [Roughness], 4.0, 0.0, DOUBLE, |x| [diffuse::average_albedo_fon(x[0])]),
@@ -148,15 +171,33 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("brdf/ggx.wgsl" "d_ggx", [HalfAngle, Alpha], 12.0, 0.0, DOUBLE, |x| [ggx::d_ggx(x[0], x[1], x[2])]),
     twin!("brdf/ggx.wgsl" "v_smith_ggx_correlated", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_correlated(x[0], x[1], x[2], x[3])]),
     twin!("brdf/ggx.wgsl" "v_smith_ggx_separable", [Cosine, Cosine, Cosine, Alpha], 10.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_separable(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/lobe_coat.wgsl" "coat_base", [Range(0.0, 1.0), Color(0.01, 1.0), Range(0.0, 0.2), Alpha, Cosine, Pair(0.0, 0.5)], 64.0, 1.0, FLOAT, |x| coat_base(coat(x, 0), x[6], v(x, 7))),
+    twin!("brdf/lobe_coat.wgsl" "coat_environment", [Range(0.0, 1.0), Color(0.01, 1.0), Range(0.0, 0.2), Alpha, Color(0.0, 1e4), Pair(0.0, 0.5)], 4.0, 0.0, DOUBLE, |x| coat_environment(coat(x, 0), v(x, 6), v(x, 9))),
+    twin!("brdf/lobe_coat.wgsl" "coat_eval", [Frame, FrontOfLast, Range(0.0, 1.0), Color(0.01, 1.0), Range(0.0, 0.2), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| coat_eval(frame(x), v(x, 7), coat(x, 10))),
     twin!("brdf/lobe_diffuse.wgsl" "diffuse_environment", [Color(0.0, 1.0), Roughness, Color(0.0, 1e4)], 1.0, 0.0, DOUBLE, |x| diffuse_environment(diffuse(x, 0), v(x, 4))),
     twin!("brdf/lobe_diffuse.wgsl" "diffuse_eval", [Frame, FrontOfLast, Color(0.0, 1.0), Roughness], 8.0, 0.3, DOUBLE, |x| diffuse_eval(frame(x), v(x, 7), diffuse(x, 10))),
+    twin!("brdf/lobe_multiscatter.wgsl" "multiscatter_environment", [Color(0.0, 1.0), Range(0.0, 1.0), Range(0.0, 0.6), Color(0.0, 1e4)], 2.0, 0.0, DOUBLE, |x| multiscatter_environment(multiscatter(x), v(x, 5))),
+    twin!("brdf/lobe_multiscatter.wgsl" "multiscatter_eval", [Frame, FrontOfLast, Color(0.0, 1.0), Range(0.0, 1.0), Range(0.01, 0.6), Pair(0.0, 0.5)], 32.0, 1.0, DOUBLE, |x| multiscatter_eval(frame(x), v(x, 7), multiscatter(&x[10..]), v(x, 15))),
+    twin!("brdf/lobe_multiscatter.wgsl" "multiscatter_from_dfg", [Reflectances(1.0), Pair(0.0, 0.5), Roughness], 16.0, 1.0, DOUBLE, |x| {
+        let p = multiscatter_from_dfg(v(x, 0), v(x, 3), v(x, 6), x[8]);
+        [p.color[0], p.color[1], p.color[2], p.loss, p.average_loss]
+    }),
     // The directions' own rounding is 1 / alpha times as large in D: roughness from 0.3 here, all of it in d_ggx and in
     // the test against the truth.
     twin!("brdf/lobe_specular.wgsl" "specular_eval", [Frame, FrontOfLast, Reflectances(1.0), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| specular_eval(frame(x), v(x, 7), specular(x, 10))),
     twin!("brdf/lobe_specular.wgsl" "specular_environment", [Reflectances(1.0), Alpha, Color(0.0, 1e4), Pair(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| specular_environment(specular(x, 0), v(x, 7), v(x, 10))),
+    // Half vectors of refraction are short where v and -l are near each other: their rounding is that much larger.
+    twin!("brdf/lobe_transmission.wgsl" "transmission_direction", [Frame, Range(0.4, 2.5)], 4096.0, 1.0, DOUBLE, |x| transmission_direction(frame(x), x[7])),
+    twin!("brdf/lobe_transmission.wgsl" "transmission_environment", [Color(0.0, 1.0), Range(0.4, 2.5), Alpha, Range(0.0, 0.2), Color(0.0, 1e4), Pair(0.0, 0.5)], 8.0, 1.0, DOUBLE, |x| transmission_environment(transmitted(x, 0), x[5], v(x, 6), v(x, 9))),
+    twin!("brdf/lobe_transmission.wgsl" "transmission_eval", [Frame, BackOfLast, Color(0.0, 1.0), Range(1.3, 2.0), Range(0.2, 1.0)], 1024.0, 1.0, DOUBLE, |x| transmission_eval(frame(x), v(x, 7), transmitted(x, 10))),
+    twin!("brdf/lobe_transmission.wgsl" "transmission_thin_eval", [Frame, BackOfLast, Color(0.0, 1.0), Range(1.1, 2.5), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| transmission_thin_eval(frame(x), v(x, 7), transmitted(x, 10))),
     twin!("brdf/metallic_roughness.wgsl" "diffuse_color", [Color(0.0, 1.0), Range(0.0, 1.0)], 2.0, 0.0, DOUBLE, |x| metallic_roughness::diffuse_color(v(x, 0), x[3])),
     twin!("brdf/metallic_roughness.wgsl" "f0_from_metallic", [Color(0.0, 1.0), Range(0.0, 1.0), Range(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| metallic_roughness::f0_from_metallic(v(x, 0), x[3], x[4])),
-    twin!("brdf/multiscatter.wgsl" "energy_compensation", [Color(0.0, 1.0), Pair(0.0, 0.5)], 6.0, 0.0, DOUBLE, |x| multiscatter::energy_compensation(v(x, 0), v(x, 3))),
+    twin!("brdf/multiscatter.wgsl" "average_fresnel", [Reflectances(1.0)], 4.0, 0.0, DOUBLE, |x| multiscatter::average_fresnel(v(x, 0), v(x, 3))),
+    twin!("brdf/multiscatter.wgsl" "average_loss_ggx", [Roughness], 16.0, 0.0, DOUBLE, |x| [multiscatter::average_loss_ggx(x[0])]),
+    twin!("brdf/multiscatter.wgsl" "energy_compensation", [Reflectances(1.0), Pair(0.0, 0.5)], 6.0, 0.0, DOUBLE, |x| multiscatter::energy_compensation(v(x, 0), v(x, 3), v(x, 6))),
+    twin!("brdf/multiscatter.wgsl" "energy_compensation_fdez_aguera", [Reflectances(1.0), Pair(0.1, 0.5)], 16.0, 0.0, DOUBLE, |x| multiscatter::energy_compensation_fdez_aguera(v(x, 0), v(x, 3), v(x, 6))),
+    twin!("brdf/multiscatter.wgsl" "multiscatter_color", [Reflectances(1.0), Range(0.3, 1.0)], 16.0, 0.0, DOUBLE, |x| multiscatter::multiscatter_color(v(x, 0), v(x, 3), x[6])),
     // A GPU's log2 has an absolute error of 2^-21 near 1, which the exponent 1 / alpha multiplies.
     twin!("brdf/sheen.wgsl" "d_charlie", [HalfAngle, Range(0.02, 1.0)], 512.0, 0.01, FLOAT, |x| [sheen::d_charlie(x[0], x[1], x[2])]),
     twin!("brdf/sheen.wgsl" "v_neubelt", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [sheen::v_neubelt(x[0], x[1], x[2], x[3])]),

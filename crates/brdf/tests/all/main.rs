@@ -1,9 +1,12 @@
 //! Tests of the BRDF math against published truth, hard cases and its own documented domains, in one binary.
 
+mod chi2;
 mod columns;
 mod data;
 mod domain;
+mod energy;
 mod hard_cases;
+mod lobes;
 mod points;
 mod precision;
 mod sampling;

@@ -96,6 +96,7 @@ fn cases() -> Vec<Case> {
         case!("dfg_karis b", 4.0, 1.0, |u| dfg_karis(cosine(u[0]), roughness(u[1]))[1]),
         case!("energy_compensation", 2.0, 0.0, |u| energy_compensation(
             [unit(u[0]); 3],
+            [R::ONE; 3],
             [unit(u[1]) * R::of(0.5), R::of(0.375)]
         )[0]),
     ]

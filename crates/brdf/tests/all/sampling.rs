@@ -60,7 +60,7 @@ fn albedo_is_the_table_s() {
         let karis = dfg_karis(n_dot_v, roughness);
         worst_karis = worst_karis.max((karis[0] - row.number("dfg_scale")).abs());
         worst_karis = worst_karis.max((karis[1] - row.number("dfg_bias")).abs());
-        let [lost, ..] = energy_compensation([1.0; 3], [truth, 0.0]).map(|c| c * truth - 1.0);
+        let [lost, ..] = energy_compensation([1.0; 3], [1.0; 3], [truth, 0.0]).map(|c| c * truth - 1.0);
         assert!(lost.abs() < 1e-15, "a white metal reflects all, not {lost}");
         rows += 1;
     }

@@ -13,7 +13,7 @@ use crate::emit::value::number;
 use crate::ir::Program;
 use crate::link::Index;
 use crate::names::Namer;
-use crate::passes::specialise::Plan;
+use crate::passes::specialise::{Coupling, Plan};
 use crate::reflection::LightKind;
 
 /// What the fragment stage is written from.
@@ -127,10 +127,6 @@ impl Shading<'_, '_, '_> {
             self.line(&format!("let frame = {frame}({normal}, {normal}); // no lobe looks at the viewer"));
         }
         let roughness = self.root("perceptual_roughness", "0.5");
-        if plan.diffuse {
-            let (diffuse, color) = (self.writer.library("Diffuse")?, self.root("diffuse_color", "vec3f(0.5)"));
-            self.line(&format!("let diffuse = {diffuse}({color}, {roughness});"));
-        }
         if plan.specular {
             let (specular, alpha) =
                 (self.writer.library("Specular")?, self.writer.library("alpha_from_perceptual_roughness")?);
@@ -142,20 +138,46 @@ impl Shading<'_, '_, '_> {
             };
             self.line(&format!("let specular = {specular}({f0}, {f90}, {alpha}({roughness}));"));
         }
-        if plan.specular && (plan.compensation || plan.environment.is_some()) {
-            let lookup = if self.parts.needs.methods.is("dfg", "karis") {
-                format!("{}(frame.n_dot_v, {roughness})", self.writer.library("dfg_karis")?)
-            } else {
-                let table = self.writer.environment(EnvironmentTexture::Dfg);
-                format!("{}({table}, frame.n_dot_v, {roughness})", self.writer.library("dfg_from_table")?)
-            };
+        if plan.reads_dfg() {
+            let lookup = self.dfg("frame.n_dot_v")?;
             self.line(&format!("let dfg = {lookup};"));
         }
         if plan.compensation {
-            let factor = self.writer.library("energy_compensation")?;
-            self.line(&format!("let compensation = {factor}(specular.f0, dfg);"));
+            let method = self.parts.needs.methods.get("compensation");
+            let factor = self.writer.library(method.function.unwrap_or("energy_compensation"))?;
+            self.line(&format!("let compensation = {factor}(specular.f0, specular.f90, dfg);"));
+        }
+        if plan.multiscatter {
+            let lobe = self.writer.library("multiscatter_from_dfg")?;
+            self.line(&format!("let multiscatter = {lobe}(specular.f0, specular.f90, dfg, {roughness});"));
+        }
+        if plan.diffuse {
+            let (diffuse, mut color) = (self.writer.library("Diffuse")?, self.root("diffuse_color", "vec3f(0.5)"));
+            if plan.coupling != Coupling::None {
+                let compensated = plan.compensation || plan.multiscatter;
+                let share =
+                    self.writer.library(if compensated { "coupling_compensated" } else { "coupling_single" })?;
+                let (f0, f90) = self.dielectric();
+                color = format!("{color} * {share}({f0}, {f90}, dfg)");
+            }
+            self.line(&format!("let diffuse = {diffuse}({color}, {roughness});"));
         }
         Ok(())
+    }
+
+    /// The split sum's pair of a cosine.
+    fn dfg(&mut self, cosine: &str) -> Result<String, CodegenError> {
+        let roughness = self.root("perceptual_roughness", "0.5");
+        if let Some(fit) = self.parts.needs.methods.get("dfg").function {
+            return Ok(format!("{}({cosine}, {roughness})", self.writer.library(fit)?));
+        }
+        let table = self.writer.environment(EnvironmentTexture::Dfg);
+        Ok(format!("{}({table}, {cosine}, {roughness})", self.writer.library("dfg_from_table")?))
+    }
+
+    /// f0 and f90 of the interface over the diffuse base.
+    fn dielectric(&self) -> (String, String) {
+        (self.root("dielectric_f0", "0.04"), self.root("dielectric_f90", "1.0"))
     }
 
     fn lights(&mut self) -> Result<(), CodegenError> {
@@ -177,6 +199,9 @@ impl Shading<'_, '_, '_> {
             if count == 1 {
                 let light = format!("{member}_light");
                 self.line(&format!("let {light} = {sample}(lights.{member}, {position});"));
+                if let Some(line) = self.light_dfg(&light)? {
+                    self.line(&line);
+                }
                 for term in self.light_terms(&light)? {
                     self.add(&term);
                 }
@@ -186,6 +211,9 @@ impl Shading<'_, '_, '_> {
                 }
                 self.line(&format!("for (var i = 0u; i < {count}u; i++) {{"));
                 self.line(&format!("    let light = {sample}(lights.{member}[i], {position});"));
+                if let Some(line) = self.light_dfg("light")? {
+                    self.line(&format!("    {line}"));
+                }
                 for term in self.light_terms("light")? {
                     self.line(&format!("    radiance += {term};"));
                 }
@@ -195,18 +223,37 @@ impl Shading<'_, '_, '_> {
         Ok(())
     }
 
+    /// The split sum's pair towards a light, where a lobe asks for it.
+    fn light_dfg(&mut self, light: &str) -> Result<Option<String>, CodegenError> {
+        if !self.parts.plan.reads_light_dfg() {
+            return Ok(None);
+        }
+        let lookup = self.dfg(&format!("dot(frame.normal, {light}.dir)"))?;
+        Ok(Some(format!("let {light}_dfg = {lookup};")))
+    }
+
     /// What one light adds by each lobe.
     fn light_terms(&mut self, light: &str) -> Result<Vec<String>, CodegenError> {
         let plan = self.parts.plan;
         let mut terms = Vec::new();
         if plan.diffuse {
             let lobe = self.writer.library("diffuse_eval")?;
-            terms.push(format!("{lobe}(frame, {light}.dir, diffuse) * {light}.illuminance"));
+            let mut share = String::new();
+            if plan.coupling == Coupling::Reciprocal {
+                let coupling = self.writer.library("coupling_light")?;
+                let ((f0, f90), roughness) = (self.dielectric(), self.root("perceptual_roughness", "0.5"));
+                share = format!(" * {coupling}({f0}, {f90}, {light}_dfg, {roughness})");
+            }
+            terms.push(format!("{lobe}(frame, {light}.dir, diffuse){share} * {light}.illuminance"));
         }
         if plan.specular {
             let lobe = self.writer.library("specular_eval")?;
             let compensated = if plan.compensation { " * compensation" } else { "" };
             terms.push(format!("{lobe}(frame, {light}.dir, specular){compensated} * {light}.illuminance"));
+        }
+        if plan.multiscatter {
+            let lobe = self.writer.library("multiscatter_eval")?;
+            terms.push(format!("{lobe}(frame, {light}.dir, multiscatter, {light}_dfg) * {light}.illuminance"));
         }
         Ok(terms)
     }
@@ -232,7 +279,7 @@ impl Shading<'_, '_, '_> {
             self.line(&format!("let reflection_dir = {direction};"));
         }
         let occlusion = if plan.occlusion { format!(" * {}", self.root("occlusion", "1.0")) } else { String::new() };
-        if plan.diffuse {
+        if plan.diffuse || plan.multiscatter {
             let irradiance = match methods.get("irradiance").name {
                 "sh2" => {
                     let direction = self.turned("frame.normal", rotated)?;
@@ -253,8 +300,14 @@ impl Shading<'_, '_, '_> {
                 }
             };
             self.line(&format!("let irradiance = {irradiance};"));
+        }
+        if plan.diffuse {
             let lobe = self.writer.library("diffuse_environment")?;
             self.add(&format!("{lobe}(diffuse, irradiance){occlusion}"));
+        }
+        if plan.multiscatter {
+            let lobe = self.writer.library("multiscatter_environment")?;
+            self.add(&format!("{lobe}(multiscatter, irradiance){occlusion}"));
         }
         if plan.specular {
             let levels = self.writer.view(ViewMember::EnvironmentLevels);

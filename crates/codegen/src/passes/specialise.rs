@@ -30,7 +30,12 @@ pub(crate) struct Plan {
     pub(crate) environment: Option<bool>,
     pub(crate) diffuse: bool,
     pub(crate) specular: bool,
+    /// Whether a factor on the specular lobe brings back what it loses.
     pub(crate) compensation: bool,
+    /// Whether a lobe of its own does.
+    pub(crate) multiscatter: bool,
+    /// What the specular lobe leaves to the diffuse one.
+    pub(crate) coupling: Coupling,
     pub(crate) emission: bool,
     /// Occlusion of the environment.
     pub(crate) occlusion: bool,
@@ -46,7 +51,30 @@ pub(crate) struct Plan {
     pub(crate) dropped: Vec<Dropped>,
 }
 
+/// How the diffuse lobe gives way to the reflection of the interface above it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Coupling {
+    /// It does not, or there is no such pair.
+    #[default]
+    None,
+    /// By what the viewer's direction reflects.
+    View,
+    /// By what the viewer's and the light's reflect.
+    Reciprocal,
+}
+
 impl Plan {
+    /// Whether shading reads the split sum's pair towards the viewer.
+    pub(crate) fn reads_dfg(&self) -> bool {
+        let scaled = self.compensation || self.multiscatter || self.coupling != Coupling::None;
+        self.specular && (scaled || self.environment.is_some())
+    }
+
+    /// Whether shading reads the split sum's pair towards each light.
+    pub(crate) fn reads_light_dfg(&self) -> bool {
+        self.multiscatter || self.coupling == Coupling::Reciprocal
+    }
+
     pub(crate) fn is_lit(&self) -> bool {
         self.diffuse || self.specular
     }
@@ -128,9 +156,13 @@ pub(crate) fn specialise(
         stage.roots.insert("diffuse_color", color);
     }
     if plan.specular {
-        let (f0, f90) = reflectances(stage, metal, weightless, full);
+        let Reflectances { f0, f90, dielectric } = reflectances(stage, metal, weightless, full);
         stage.roots.insert("f0", f0);
         stage.roots.insert("f90", f90);
+        if let (Some((f0, f90)), true) = (dielectric, plan.coupling != Coupling::None) {
+            stage.roots.insert("dielectric_f0", f0);
+            stage.roots.insert("dielectric_f90", f90);
+        }
     }
     keep_wanted(stage, &plan);
     if !plan.height {
@@ -186,7 +218,17 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     if lit && metal == Metal::None && plan.specular {
         plan.drop_it("metal", "metallic is 0: f0 comes from the index of refraction alone");
     }
-    plan.compensation = plan.specular && compensates(&mut plan, needs, constants);
+    if plan.specular && compensates(&mut plan, needs, constants) {
+        plan.multiscatter = needs.methods.is("compensation", "kulla_conty");
+        plan.compensation = !plan.multiscatter;
+    }
+    if plan.diffuse && plan.specular && !known.surface("specular", 0.0) {
+        plan.coupling = match needs.methods.get("coupling").name {
+            "none" => Coupling::None,
+            "reciprocal" => Coupling::Reciprocal,
+            _ => Coupling::View,
+        };
+    }
 
     plan.emission = !known.surface("emission", 0.0);
     if !plan.emission {
@@ -215,7 +257,7 @@ fn compensates(plan: &mut Plan, needs: &Needs, constants: Constants) -> bool {
                 "energy compensation",
                 format!(
                     "f0 is {f0:.3} and fixed: it would change radiance by less than {COMPENSATION_BOUND_PERCENT} % of that of a \
-                     uniform environment; no table over (n.v, roughness) is read for it"
+                     uniform environment"
                 ),
             );
             false
@@ -272,12 +314,22 @@ fn diffuse_color<'a>(stage: &mut Stage<'a>, metal: Metal) -> Id {
     stage.arena.own(expr, Type::Vec3, "diffuse_albedo")
 }
 
+/// Reflectances at normal and at grazing incidence.
+struct Reflectances {
+    /// Of the specular lobe.
+    f0: Id,
+    f90: Id,
+    /// Of the dielectric part of it alone: two numbers.
+    dielectric: Option<(Id, Id)>,
+}
+
 /// f0 and f90 of the specular lobe. Khronos 2021, KHR_materials_ior and KHR_materials_specular: the dielectric's are
 /// scaled by the weight `specular`, a metal's f0 is its base colour and its f90 is 1.
-fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full: bool) -> (Id, Id) {
+fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full: bool) -> Reflectances {
     let arena_one = |stage: &mut Stage<'a>, x: f32| stage.arena.literal(Type::Vec3, &[x]);
     if metal == Metal::Whole {
-        return (input(stage, "base_color", Type::Vec3, 0.5), arena_one(stage, 1.0));
+        let (f0, f90) = (input(stage, "base_color", Type::Vec3, 0.5), arena_one(stage, 1.0));
+        return Reflectances { f0, f90, dielectric: None };
     }
     let weight = if full {
         stage.arena.literal(Type::F32, &[1.0])
@@ -288,7 +340,8 @@ fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full:
     };
     let dielectric_f0 = dielectric_f0(stage, weight, full, weightless);
     if metal == Metal::None {
-        return (stage.arena.convert(dielectric_f0, Type::Vec3), stage.arena.convert(weight, Type::Vec3));
+        let (f0, f90) = (stage.arena.convert(dielectric_f0, Type::Vec3), stage.arena.convert(weight, Type::Vec3));
+        return Reflectances { f0, f90, dielectric: Some((dielectric_f0, weight)) };
     }
     let base_color = input(stage, "base_color", Type::Vec3, 0.5);
     let metallic = input(stage, "metallic", Type::F32, 0.0);
@@ -303,7 +356,7 @@ fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full:
         let mixed = stage.arena.own(mixed, Type::F32, "f90");
         stage.arena.convert(mixed, Type::Vec3)
     };
-    (f0, f90)
+    Reflectances { f0, f90, dielectric: Some((dielectric_f0, weight)) }
 }
 
 /// The dielectric's f0: of the index of refraction, times the weight.
@@ -332,7 +385,7 @@ fn input(stage: &mut Stage<'_>, socket: &'static str, ty: Type, otherwise: f32) 
 /// Leaves as roots only what the shading of this plan reads.
 fn keep_wanted(stage: &mut Stage<'_>, plan: &Plan) {
     stage.roots.retain(|name, _| match *name {
-        "diffuse_color" | "f0" | "f90" => true,
+        "diffuse_color" | "f0" | "f90" | "dielectric_f0" | "dielectric_f90" => true,
         "normal" | "perceptual_roughness" => plan.is_lit(),
         "occlusion" => plan.occlusion,
         "emission" => plan.emission,

@@ -1,6 +1,7 @@
 //! Tests of the crate as its users see it, in one binary. Those that need the data folder (`HALFVECTOR_DATA`, default
 //! `../shared/data` beside the project) print a line and pass when it is not there.
 
+mod albedo;
 mod bake;
 mod files;
 mod occlusion;

@@ -41,7 +41,7 @@ fn call<R: Scalar>(function: &str, x: &[R]) -> Vec<R> {
         "ior_from_f0" => vec![ior_from_f0(x[0])],
         "diffuse_eon" => diffuse_eon(v(0), x[3], x[4], x[5], x[6]).to_vec(),
         "directional_albedo_fon" => vec![directional_albedo_fon(x[0], x[1])],
-        "energy_compensation" => energy_compensation(v(0), [x[3], x[4]]).to_vec(),
+        "energy_compensation" => energy_compensation(v(0), v(3), [x[6], x[7]]).to_vec(),
         other => panic!("`{other}` is not called here"),
     }
 }
@@ -202,6 +202,6 @@ fn reflectances_at_their_ends() {
     assert!((f0_from_ior(1.5_f32) - 0.04).abs() < 1e-8);
     assert_eq!(f0_from_ior(1.0_f32), 0.0);
     // `f0>1 in Kulla-Conty`: no pole.
-    assert!((energy_compensation([1.5_f32; 3], [0.3, 0.109_137])[0] - 3.166_261).abs() < 1e-5);
-    assert!(energy_compensation([1.0_f32; 3], [0.0, 0.0]).iter().all(|c| c.is_finite()));
+    assert!((energy_compensation([1.5_f32; 3], [1.0; 3], [0.3, 0.109_137])[0] - 2.444_174).abs() < 1e-5);
+    assert!(energy_compensation([1.0_f32; 3], [1.0; 3], [0.0, 0.0]).iter().all(|c| c.is_finite()));
 }

@@ -1,0 +1,107 @@
+//! Transmission through a rough dielectric interface. Walter, Marschner, Li, Torrance 2007, Microfacet Models for
+//! Refraction through Rough Surfaces.
+//!
+//! Two meanings, each of its own functions. *Solid*: the interface bends light; what is inside the body is another medium,
+//! and radiance that enters it is compressed by eta^2. *Thin-walled* (KHR_materials_transmission, Khronos 2020; OpenPBR's
+//! `geometry_thin_walled`): a sheet, which light leaves in the direction in which it came, blurred as a reflection is. Light
+//! is absorbed by neither: `color` is what a ray keeps.
+
+use crate::Real;
+use crate::frame::{Frame, half_from_light};
+use crate::fresnel::f_dielectric;
+use crate::ggx::{d_ggx, v_smith_ggx_correlated};
+use crate::math::{finite_or_zero, normalize_or};
+use crate::vector::{add, cross, dot, scale};
+
+/// Smallest square of the denominator of the change of angles: 0 / 0 where eta = 1 and l = -v, which has no half vector.
+const JACOBIAN_FLOOR: f64 = 1e-24;
+
+/// Parameters of transmission.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transmission<R> {
+    /// Share of the light that passes, linear Rec. 709.
+    pub color: [R; 3],
+    /// Index of refraction behind the surface over the index on the viewer's side: ior from outside, 1 / ior from inside.
+    pub eta: R,
+    /// Square of the perceptual roughness.
+    pub alpha: R,
+}
+
+/// The half vector of refraction, -(v + eta l) / |v + eta l|, turned to the viewer's side of the surface where eta < 1 has
+/// turned it away; 0 where there is none.
+#[inline]
+fn refraction_half<R: Real>(frame: Frame<R>, l: [R; 3], eta: R) -> [R; 3] {
+    let sum = normalize_or(add(frame.view_dir, scale(l, eta)), [R::ZERO; 3]);
+    let side = R::choose(R::ZERO.lt(dot(sum, frame.normal)), R::ONE, -R::ONE);
+    scale(sum, side)
+}
+
+/// Solid: BTDF times |n.l| for the unit direction `l` from the surface to a light behind it, in 1/sr:
+/// color (1 - F) |v.h| |l.h| G D / (n.v (v.h + eta l.h)^2), equation 21 of the paper, over the index on the viewer's side.
+///
+/// G = G1(v) G1(l). The numerator's eta_o^2 is the viewer's side's, so f(v, l) eta_l^2 = f(l, v) eta_v^2: the form is
+/// reciprocal up to the compression of radiance. F is exact; total internal reflection (eta < 1) gives 0.
+/// 0 for a light in front. Any input gives a finite result: a channel that would be NaN or infinite is 0.
+#[inline]
+pub fn transmission_eval<R: Real>(frame: Frame<R>, l: [R; 3], p: Transmission<R>) -> [R; 3] {
+    let h = refraction_half(frame, l, p.eta);
+    let (v_dot_h, l_dot_h) = (dot(frame.view_dir, h), dot(l, h));
+    let sine = cross(frame.normal, h);
+    let n_dot_l = -dot(frame.normal, l);
+    let root = v_dot_h + p.eta * l_dot_h;
+    let d = d_ggx(dot(frame.normal, h), dot(sine, sine), p.alpha);
+    // G / (n.v |n.l|) is four times V of Smith's separable form; times |n.l| it is finite at the horizon.
+    let a2 = p.alpha * p.alpha;
+    let lit = |c: R| c + (a2 + (R::ONE - a2) * c * c).sqrt();
+    let front = n_dot_l.max(R::ZERO);
+    let g = R::of(4.0) * front / (lit(frame.n_dot_v) * lit(front)).max(R::of(1e-36));
+    let f = f_dielectric(p.eta, v_dot_h);
+    let part = (R::ONE - f) * d * g * v_dot_h * -l_dot_h / (root * root).max(R::of(JACOBIAN_FLOOR));
+    // The two rays stand on both sides of the microfacet, and the light behind the surface.
+    let through = R::ZERO.lt(v_dot_h) & l_dot_h.lt(R::ZERO) & R::ZERO.lt(n_dot_l);
+    finite_or_zero(scale(p.color, R::choose(through, part, R::ZERO)))
+}
+
+/// Thin-walled: BTDF times |n.l| for the unit direction `l` from the surface to a light behind it: a reflection whose light
+/// is mirrored at the surface, color (1 - F) D V |n.l|, F of both faces of the sheet together.
+///
+/// F of one face is exact, f = f_dielectric(eta, l.h); both faces with all bounces between them reflect 2 f / (1 + f).
+/// Reciprocal. eta below 1 is taken as 1 / eta. 0 for a light in front. Any input gives a finite result.
+#[inline]
+pub fn transmission_thin_eval<R: Real>(frame: Frame<R>, l: [R; 3], p: Transmission<R>) -> [R; 3] {
+    let mirrored = add(l, scale(frame.normal, R::of(-2.0) * dot(frame.normal, l)));
+    let h = half_from_light(frame, mirrored);
+    let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
+    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
+    let f = f_dielectric(p.eta.max(R::ONE / p.eta), h.l_dot_h);
+    let through = (R::ONE - f) / (R::ONE + f);
+    finite_or_zero(scale(p.color, through * (v * h.n_dot_l * d)))
+}
+
+/// The direction in which an environment is looked up for solid transmission: v refracted by the smooth surface, Snell's
+/// law; where it is totally reflected, the grazing ray.
+///
+/// t = -v / eta + (n.v / eta - sqrt(1 - (1 - (n.v)^2) / eta^2)) n. Unit for unit arguments. For a thin wall it is -v.
+#[inline]
+pub fn transmission_direction<R: Real>(frame: Frame<R>, eta: R) -> [R; 3] {
+    let inv_eta = R::ONE / eta.max(R::of(1e-6));
+    let cos2 = R::ONE - inv_eta * inv_eta * (R::ONE - frame.n_dot_v * frame.n_dot_v);
+    let along = inv_eta * frame.n_dot_v - cos2.max(R::ZERO).sqrt();
+    let t = add(scale(frame.view_dir, -inv_eta), scale(frame.normal, along));
+    normalize_or(t, scale(frame.normal, -R::ONE))
+}
+
+/// Radiance that arrives through the surface from an environment: color (1 - f0 a - b) times the radiance of
+/// [`transmission_direction`], filtered by the lobe's roughness, with the split-sum pair `dfg` and the interface's f0.
+///
+/// The compression by eta^2 is left out: a ray that enters a body leaves it again. Any input gives a finite result.
+#[inline]
+pub fn transmission_environment<R: Real>(
+    p: Transmission<R>,
+    f0: R,
+    transmitted_radiance: [R; 3],
+    dfg: [R; 2],
+) -> [R; 3] {
+    let through = (R::ONE - f0 * dfg[0] - dfg[1]).clamp(R::ZERO, R::ONE);
+    finite_or_zero([0, 1, 2].map(|i| p.color[i] * through * transmitted_radiance[i]))
+}

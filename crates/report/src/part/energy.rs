@@ -1,0 +1,131 @@
+//! The split sum's pair: tables of several sizes and layouts, and analytic fits, against quadrature.
+
+use halfvector_brdf::albedo::{directional_albedo_ggx, directional_albedo_ggx_with, gauss_legendre};
+use halfvector_brdf::dfg::{dfg_fit, dfg_karis};
+use halfvector_brdf::ggx::v_smith_ggx_correlated;
+
+use crate::error::Errors;
+use crate::timing::interleaved;
+use crate::{Effort, Row};
+
+const INNER: &str = "n.v >= 0.05, roughness >= 0.089; absolute error of a + b and of b against quadrature, the greater";
+const WIDE: &str = "n.v >= 0.001, roughness >= 0.02; absolute error of a + b and of b against quadrature, the greater";
+
+/// A table: what stands where.
+struct Layout {
+    name: &'static str,
+    size: usize,
+    /// Whether the ends of each axis are texel centres; else they are the table's edges.
+    vertices: bool,
+    /// n.v is this power of the place along x, and roughness of that along y.
+    powers: [i32; 2],
+    /// Bytes of a number: 2 or 4.
+    bytes: usize,
+}
+
+const LAYOUTS: &[Layout] = &[
+    Layout { name: "table", size: 45, vertices: true, powers: [4, 2], bytes: 2 },
+    Layout { name: "32^2 f16, texel-centred, n.v", size: 32, vertices: false, powers: [1, 1], bytes: 2 },
+    Layout { name: "32^2 f16, vertex-centred, n.v", size: 32, vertices: true, powers: [1, 1], bytes: 2 },
+    Layout { name: "32^2 f16, vertex-centred, sqrt(n.v)", size: 32, vertices: true, powers: [2, 1], bytes: 2 },
+    Layout { name: "32^2 f16, vertex-centred, both warped", size: 32, vertices: true, powers: [4, 2], bytes: 2 },
+    Layout { name: "45^2 f16, vertex-centred, sqrt(n.v)", size: 45, vertices: true, powers: [2, 1], bytes: 2 },
+    Layout { name: "45^2 f32, vertex-centred, both warped", size: 45, vertices: true, powers: [4, 2], bytes: 4 },
+    Layout { name: "64^2 f16, vertex-centred, sqrt(n.v)", size: 64, vertices: true, powers: [2, 1], bytes: 2 },
+    Layout { name: "64^2 f16, vertex-centred, both warped", size: 64, vertices: true, powers: [4, 2], bytes: 2 },
+];
+
+/// Measures the part.
+pub fn rows(effort: Effort) -> Vec<Row> {
+    let points = truth(effort.pick(24, 64));
+    let mut rows = Vec::new();
+    for layout in LAYOUTS {
+        let texels = filled(layout);
+        rows.extend(measured(
+            layout.name,
+            &points,
+            |v, r| read(layout, &texels, v, r),
+            |row| {
+                row.bytes = Some((layout.size * layout.size * 2 * layout.bytes) as u64);
+            },
+        ));
+    }
+    let forms: [(&str, fn(f32, f32) -> [f32; 2]); 2] = [("fit", dfg_fit), ("karis", dfg_karis)];
+    let arguments: Vec<[f32; 2]> = points.iter().map(|p| [p.0 as f32, p.1 as f32]).collect();
+    let mut runs: Vec<_> = forms
+        .iter()
+        .map(|(_, form)| || arguments.iter().map(|&[v, r]| f64::from(form(v, r)[0])).sum::<f64>())
+        .collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+    let seconds = interleaved(&mut candidates, effort.pick(20, 200));
+    for ((name, form), seconds) in forms.iter().zip(seconds) {
+        let value = |v: f64, r: f64| form(v as f32, r as f32).map(f64::from);
+        rows.extend(measured(name, &points, value, |row| row.cost_ns = Some(seconds * 1e9 / arguments.len() as f64)));
+    }
+    rows
+}
+
+/// (n.v, roughness, (a, b)) on a grid that is dense where either is small.
+fn truth(count: usize) -> Vec<(f64, f64, [f64; 2])> {
+    let place = |i: usize| (i as f64 + 0.37) / count as f64;
+    (0..count * count)
+        .map(|k| {
+            let (v, r) = (0.001 + 0.999 * place(k % count).powi(3), 0.02 + 0.98 * place(k / count).powf(1.5));
+            (v, r, directional_albedo_ggx(v, r))
+        })
+        .collect()
+}
+
+fn measured(
+    name: &str,
+    points: &[(f64, f64, [f64; 2])],
+    value: impl Fn(f64, f64) -> [f64; 2],
+    with: impl Fn(&mut Row),
+) -> [Row; 2] {
+    [INNER, WIDE].map(|domain| {
+        let mut errors = Errors::default();
+        for &(v, r, [a, b]) in points {
+            if domain == WIDE || (v >= 0.05 && r >= 0.089) {
+                let found = value(v, r);
+                let error = (found[0] + found[1] - a - b).abs().max((found[1] - b).abs());
+                errors.add(error, || format!("n.v = {v:.5}, roughness = {r:.5}"));
+            }
+        }
+        let mut row = Row::new("dfg", name, domain);
+        errors.fill(&mut row);
+        with(&mut row);
+        row
+    })
+}
+
+fn filled(layout: &Layout) -> Vec<[f64; 2]> {
+    let n = layout.size;
+    let place = |i: usize| if layout.vertices { i as f64 / (n - 1) as f64 } else { (i as f64 + 0.5) / n as f64 };
+    let rule = gauss_legendre::<6>();
+    let stored = |x: f64| if layout.bytes == 2 { f64::from(half::f16::from_f64(x)) } else { f64::from(x as f32) };
+    (0..n * n)
+        .map(|k| {
+            let (v, r) = (place(k % n).powi(layout.powers[0]), place(k / n).powi(layout.powers[1]));
+            directional_albedo_ggx_with::<24, 6>(v, r, v_smith_ggx_correlated::<f64>, &rule).map(stored)
+        })
+        .collect()
+}
+
+/// As a sampler reads it: linear between texel centres, held at the edges.
+fn read(layout: &Layout, texels: &[[f64; 2]], n_dot_v: f64, roughness: f64) -> [f64; 2] {
+    let n = layout.size;
+    let axis = |x: f64, power: i32| {
+        let place = x.powf(1.0 / f64::from(power));
+        let at = if layout.vertices { place * (n - 1) as f64 } else { place * n as f64 - 0.5 };
+        let at = at.clamp(0.0, (n - 1) as f64);
+        let low = (at as usize).min(n - 2);
+        (low, at - low as f64)
+    };
+    let ((x, s), (y, t)) = (axis(n_dot_v, layout.powers[0]), axis(roughness, layout.powers[1]));
+    std::array::from_fn(|i| {
+        let at = |x: usize, y: usize| texels[y * n + x][i];
+        let above = at(x, y) + (at(x + 1, y) - at(x, y)) * s;
+        let below = at(x, y + 1) + (at(x + 1, y + 1) - at(x, y + 1)) * s;
+        above + (below - above) * t
+    })
+}

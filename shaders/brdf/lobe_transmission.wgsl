@@ -1,0 +1,65 @@
+// Transmission through a rough dielectric interface. Walter, Marschner, Li, Torrance 2007, Microfacet Models for
+// Refraction through Rough Surfaces. Solid: the interface bends light. Thin-walled (KHR_materials_transmission, Khronos
+// 2020): a sheet, which light leaves in the direction in which it came, blurred as a reflection is.
+
+// Smallest square of the denominator of the change of angles: 0 / 0 where eta = 1 and l = -v, which has no half vector.
+const JACOBIAN_FLOOR: f32 = 1e-24;
+
+/// Parameters of transmission.
+struct Transmission {
+    /// Share of the light that passes, linear Rec. 709.
+    color: vec3f,
+    /// Index of refraction behind the surface over the index on the viewer's side: ior from outside, 1 / ior from inside.
+    eta: f32,
+    /// Square of the perceptual roughness.
+    alpha: f32,
+}
+
+/// Solid: BTDF times |n.l| for the unit direction `l` from the surface to a light behind it, in 1/sr:
+/// color (1 - F) |v.h| |l.h| G D / (n.v (v.h + eta l.h)^2), equation 21 of the paper, over the index on the viewer's side.
+/// G = G1(v) G1(l), h = -(v + eta l) / |v + eta l| on the viewer's side. Total internal reflection gives 0.
+fn transmission_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
+    let sum = normalize_or(frame.view_dir + p.eta * l, vec3f(0.0));
+    let h = select(-sum, sum, dot(sum, frame.normal) > 0.0);
+    let v_dot_h = dot(frame.view_dir, h);
+    let l_dot_h = dot(l, h);
+    let sine = cross(frame.normal, h);
+    let n_dot_l = -dot(frame.normal, l);
+    let root = v_dot_h + p.eta * l_dot_h;
+    let d = d_ggx(dot(frame.normal, h), dot(sine, sine), p.alpha);
+    // G / (n.v |n.l|) is four times V of Smith's separable form; times |n.l| it is finite at the horizon.
+    let a2 = p.alpha * p.alpha;
+    let front = max(n_dot_l, 0.0);
+    let view_lit = frame.n_dot_v + sqrt(a2 + (1.0 - a2) * frame.n_dot_v * frame.n_dot_v);
+    let light_lit = front + sqrt(a2 + (1.0 - a2) * front * front);
+    let g = 4.0 * front / max(view_lit * light_lit, 1e-36);
+    let f = f_dielectric(p.eta, v_dot_h);
+    let part = (1.0 - f) * d * g * v_dot_h * -l_dot_h / max(root * root, JACOBIAN_FLOOR);
+    return finite_or_zero(p.color * select(0.0, part, v_dot_h > 0.0 && l_dot_h < 0.0 && n_dot_l > 0.0));
+}
+
+/// Thin-walled: BTDF times |n.l| for the unit direction `l` from the surface to a light behind it: a reflection whose light
+/// is mirrored at the surface, color (1 - F) D V |n.l|; both faces with all bounces between them reflect 2 f / (1 + f).
+fn transmission_thin_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
+    let h = half_from_light(frame, l - 2.0 * dot(frame.normal, l) * frame.normal);
+    let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
+    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
+    let f = f_dielectric(max(p.eta, 1.0 / p.eta), h.l_dot_h);
+    return finite_or_zero(p.color * ((1.0 - f) / (1.0 + f) * (v * h.n_dot_l * d)));
+}
+
+/// The direction in which an environment is looked up for solid transmission: v refracted by the smooth surface, Snell's
+/// law; where it is totally reflected, the grazing ray. For a thin wall it is -v.
+fn transmission_direction(frame: Frame, eta: f32) -> vec3f {
+    let inv_eta = 1.0 / max(eta, 1e-6);
+    let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - frame.n_dot_v * frame.n_dot_v);
+    let along = inv_eta * frame.n_dot_v - sqrt(max(cos2, 0.0));
+    return normalize_or(frame.normal * along - frame.view_dir * inv_eta, -frame.normal);
+}
+
+/// Radiance that arrives through the surface from an environment: color (1 - f0 a - b) times the radiance of
+/// transmission_direction, filtered by the lobe's roughness, with the split-sum pair `dfg` and the interface's f0.
+/// The compression by eta^2 is left out: a ray that enters a body leaves it again.
+fn transmission_environment(p: Transmission, f0: f32, transmitted_radiance: vec3f, dfg: vec2f) -> vec3f {
+    return finite_or_zero(p.color * saturate(1.0 - f0 * dfg.x - dfg.y) * transmitted_radiance);
+}
