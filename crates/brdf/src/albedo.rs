@@ -11,8 +11,7 @@ const MIN_COSINE: f64 = 1e-6;
 const MIN_ALPHA: f64 = 1e-8;
 /// Panels of a segment: each is four times as long as the one before, so that even alpha = 1e-8 has enough.
 const PANELS: usize = 16;
-/// Points over half of the azimuth and in a panel of polar angles that integrate to 1e-7.
-const FINE_AZIMUTH: usize = 64;
+/// Points in a panel that integrate to 1e-8.
 const FINE_POINTS: usize = 12;
 
 /// Points and weights of Gauss and Legendre's rule of `N` points over [-1, 1], by Newton's method from Chebyshev's points.
@@ -39,15 +38,14 @@ pub fn gauss_legendre<const N: usize>() -> [[f64; 2]; N] {
 ///
 /// E = Int D V n.l dl, b = Int D V (1 - l.h)^5 n.l dl over the directions l. With S = |v + l|^2 and M = n.v + n.l,
 /// D = alpha^2 S^2 / (pi q^2), q = S - (1 - alpha^2) M^2, and both S and q are p + r sin^2(phi / 2) in the azimuth phi from
-/// the mirror direction. tan(psi / 2) = tan(phi / 2) / k, k^2 = p / (p + r) of q, makes q constant but for a smooth factor:
-/// equal steps in psi then converge exponentially, however narrow the lobe (`AZIMUTH` of them over half a turn). The polar
-/// angle is taken in panels that grow fourfold from the mirror direction and from the horizon, where the lobe and V have
-/// their scales alpha and min(alpha, n.v), with Gauss's rule of `POINTS` in each. `visibility` is V of (n.v, n.l, l.h,
+/// the mirror direction: q's peak there is sqrt(p / r) wide. The polar angle is taken in panels that grow fourfold from the
+/// mirror direction and from the horizon, where the lobe and V change within min(alpha, n.v), the azimuth in
+/// panels that grow fourfold from its peak, with Gauss's rule of `POINTS` in each. `visibility` is V of (n.v, n.l, l.h,
 /// alpha).
 ///
 /// Domain: every number; n.v is held in [1e-6, 1], alpha in [1e-8, 1]; NaN counts as the lower end of n.v.
-/// Error with 64 and 12: <= 1e-7; with 24 and 6: <= 1e-5.
-pub fn directional_albedo_ggx_with<const AZIMUTH: usize, const POINTS: usize>(
+/// Error with 12 points: <= 1e-8; with 6: <= 1e-5.
+pub fn directional_albedo_ggx_with<const POINTS: usize>(
     n_dot_v: f64,
     perceptual_roughness: f64,
     visibility: fn(f64, f64, f64, f64) -> f64,
@@ -57,12 +55,8 @@ pub fn directional_albedo_ggx_with<const AZIMUTH: usize, const POINTS: usize>(
     let alpha = f64::max(alpha_from_perceptual_roughness(perceptual_roughness), MIN_ALPHA);
     let theta_v = Real::acos(n_dot_v);
     let sin_v = Real::sin_cos(theta_v).0;
-    let half_turn: [[f64; 2]; AZIMUTH] = std::array::from_fn(|i| {
-        let (sin, cos) = Real::sin_cos(0.5 * PI * (i as f64 + 0.5) / AZIMUTH as f64);
-        [sin * sin, cos * cos]
-    });
     let (mut all, mut bias) = (0.0, 0.0);
-    let mut add = |theta_l: f64, weight: f64| {
+    let mut polar = |theta_l: f64, weight: f64| {
         let (sin_l, n_dot_l) = Real::sin_cos(theta_l);
         let cos_sum = Real::sin_cos(0.5 * (theta_v + theta_l)).1;
         let (sin_difference, cos_difference) = Real::sin_cos(0.5 * (theta_v - theta_l));
@@ -70,51 +64,46 @@ pub fn directional_albedo_ggx_with<const AZIMUTH: usize, const POINTS: usize>(
         let s0 = 4.0 * cos_sum * cos_sum;
         let q0 = s0 * (sin_difference * sin_difference + alpha * alpha * cos_difference * cos_difference);
         let rise = 4.0 * sin_v * sin_l;
-        let k2 = q0 / (q0 + rise);
-        let k = Real::sqrt(k2);
-        for [sin2, cos2] in half_turn {
-            let stretched = cos2 + k2 * sin2;
-            let s = s0 + rise * k2 * sin2 / stretched;
-            let q = q0 / stretched;
-            let d = alpha * s / q;
-            let l_dot_h = 0.5 * Real::sqrt(s);
-            let azimuth = 2.0 * PI / AZIMUTH as f64 * k / stretched;
+        graded(PI, 2.0 * Real::sqrt(q0 / (q0 + rise)), rule, |phi, width| {
+            let sin = Real::sin_cos(0.5 * phi).0;
+            let more = rise * sin * sin;
+            let d = alpha * (s0 + more) / (q0 + more);
+            let l_dot_h = 0.5 * Real::sqrt(s0 + more);
             let v = visibility(n_dot_v, n_dot_l, l_dot_h, alpha);
-            let part = weight * azimuth * (d * d / PI) * v * n_dot_l * sin_l;
+            // Both halves of the azimuth.
+            let part = 2.0 * weight * width * (d * d / PI) * v * n_dot_l * sin_l;
             all += part;
             bias += part * crate::math::pow5(f64::max(1.0 - l_dot_h, 0.0));
-        }
+        });
     };
     let horizon = 0.5 * PI;
     let middle = 0.5 * (theta_v + horizon);
     let scale = f64::min(alpha, n_dot_v);
-    for (from, to, first) in [(theta_v, 0.0, alpha), (theta_v, middle, scale), (horizon, middle, scale)] {
-        let direction = if to < from { -1.0 } else { 1.0 };
-        let length = direction * (to - from);
-        let (mut start, mut end) = (0.0, f64::min(0.5 * first, length));
-        for _ in 0..PANELS {
-            if end <= start {
-                break;
-            }
-            for &[x, w] in rule {
-                let offset = start + (end - start) * (x + 1.0) / 2.0;
-                add(from + direction * offset, w / 2.0 * (end - start));
-            }
-            (start, end) = (end, f64::min(4.0 * end, length));
-        }
-    }
+    graded(theta_v, 0.5 * scale, rule, |offset, width| polar(theta_v - offset, width));
+    graded(middle - theta_v, 0.5 * scale, rule, |offset, width| polar(theta_v + offset, width));
+    graded(horizon - middle, 0.5 * scale, rule, |offset, width| polar(horizon - offset, width));
     [all - bias, bias]
 }
 
-/// (a, b) of the GGX lobe with height-correlated V, to 1e-7: [`directional_albedo_ggx_with`] 64 and 12.
+/// Calls `add` with the points and weights of a rule over [0, length], in panels of which the first ends at `first` and
+/// each next one is four times as far.
+fn graded<const POINTS: usize>(length: f64, first: f64, rule: &[[f64; 2]; POINTS], mut add: impl FnMut(f64, f64)) {
+    let (mut start, mut end) = (0.0, f64::min(first, length));
+    for _ in 0..PANELS {
+        if end <= start {
+            break;
+        }
+        for &[x, w] in rule {
+            add(start + (end - start) * (x + 1.0) / 2.0, w / 2.0 * (end - start));
+        }
+        (start, end) = (end, f64::min(4.0 * end, length));
+    }
+}
+
+/// (a, b) of the GGX lobe with height-correlated V, to 1e-8: [`directional_albedo_ggx_with`] 12 points.
 pub fn directional_albedo_ggx(n_dot_v: f64, perceptual_roughness: f64) -> [f64; 2] {
     let rule = gauss_legendre::<FINE_POINTS>();
-    directional_albedo_ggx_with::<FINE_AZIMUTH, FINE_POINTS>(
-        n_dot_v,
-        perceptual_roughness,
-        v_smith_ggx_correlated::<f64>,
-        &rule,
-    )
+    directional_albedo_ggx_with::<FINE_POINTS>(n_dot_v, perceptual_roughness, v_smith_ggx_correlated::<f64>, &rule)
 }
 
 /// Cosine-weighted averages 2 Int a(mu) mu dmu and 2 Int b(mu) mu dmu of the GGX lobe; their sum is E_avg, which is

@@ -40,11 +40,9 @@ pub struct DfgTable {
 /// n.v is about alpha and small: with sqrt(n.v) and the plain roughness the same 45 texels err by 1.5e-3 and 3.5e-2.
 pub const DFG_SIZE: usize = 45;
 
-/// Points over the azimuth and in each panel of polar angles: for tables, and where a single value is asked for.
+/// Points in each panel of the quadrature: for tables, and where a single value is asked for.
 const POINTS: usize = 6;
-const AZIMUTH: usize = 24;
 const FINE_POINTS: usize = 12;
-const FINE_AZIMUTH: usize = 64;
 
 /// The table for height-correlated Smith; `size` is held in 2..=1024.
 pub fn dfg_table(size: usize) -> DfgTable {
@@ -60,21 +58,15 @@ pub fn dfg_table_with(size: usize, visibility: Visibility) -> DfgTable {
         .map(|k| {
             let place = |i: usize| i as f64 / (size - 1) as f64;
             let (n_dot_v, roughness) = (place(k % size).powi(4), place(k / size).powi(2));
-            directional_albedo_ggx_with::<AZIMUTH, POINTS>(n_dot_v, roughness, visibility.function(), &rule)
-                .map(|x| x as f32)
+            directional_albedo_ggx_with::<POINTS>(n_dot_v, roughness, visibility.function(), &rule).map(|x| x as f32)
         })
         .collect();
     DfgTable { size, texels }
 }
 
-/// Scale and bias (a, b) of one n.v and perceptual roughness, both held in 0..=1, to 1e-7:
+/// Scale and bias (a, b) of one n.v and perceptual roughness, both held in 0..=1, to 1e-8:
 /// [`halfvector_brdf::albedo::directional_albedo_ggx`] for a visibility.
 pub fn dfg(n_dot_v: f64, perceptual_roughness: f64, visibility: Visibility) -> [f64; 2] {
     let rule = gauss_legendre::<FINE_POINTS>();
-    directional_albedo_ggx_with::<FINE_AZIMUTH, FINE_POINTS>(
-        n_dot_v,
-        perceptual_roughness,
-        visibility.function(),
-        &rule,
-    )
+    directional_albedo_ggx_with::<FINE_POINTS>(n_dot_v, perceptual_roughness, visibility.function(), &rule)
 }

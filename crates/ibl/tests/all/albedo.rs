@@ -87,7 +87,7 @@ fn furnace_through_the_table() {
         let roughness = 0.02 + 0.98 * (f64::from(i) / 19.0).powi(2);
         for j in 0..24 {
             let n_dot_v = 0.001 + 0.999 * (f64::from(j) / 23.0).powi(3);
-            let [a, b] = directional_albedo_ggx_with::<24, 6>(
+            let [a, b] = directional_albedo_ggx_with::<6>(
                 n_dot_v,
                 roughness,
                 v_smith_ggx_correlated::<f64>,

@@ -106,7 +106,7 @@ fn filled(layout: &Layout) -> Vec<[f64; 2]> {
     (0..n * n)
         .map(|k| {
             let (v, r) = (place(k % n).powi(layout.powers[0]), place(k / n).powi(layout.powers[1]));
-            directional_albedo_ggx_with::<24, 6>(v, r, v_smith_ggx_correlated::<f64>, &rule).map(stored)
+            directional_albedo_ggx_with::<6>(v, r, v_smith_ggx_correlated::<f64>, &rule).map(stored)
         })
         .collect()
 }
