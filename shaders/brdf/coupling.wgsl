@@ -1,13 +1,15 @@
 // What a dielectric interface leaves to the diffuse base under it, so that both together reflect no more than arrives.
 // A base colour is the albedo of the base as it is seen through the interface (glTF 2.0 appendix B; OpenPBR 1.1).
 
+// 1 less what a table of 45 x 45 texels may be too low by: so that base and interface do not gain.
+const ARRIVING: f32 = 0.9975;
 // Largest albedo of an interface that is divided by in coupling_light.
 const AVERAGE_CEILING: f32 = 0.99;
 
 /// Share 1 - E_spec(v) of a diffuse BRDF that is left under an interface of reflectances f0 and f90 that scatters once:
 /// E_spec = f0 a + f90 b. Kulla and Conty 2017; OpenPBR 1.1 section 3. View-only.
 fn coupling_single(f0: f32, f90: f32, dfg: vec2f) -> f32 {
-    return saturate(1.0 - f0 * dfg.x - f90 * dfg.y);
+    return saturate(ARRIVING - f0 * dfg.x - f90 * dfg.y);
 }
 
 /// Share that is left under an interface whose specular lobe is compensated for multiple scattering by any of the
@@ -15,7 +17,7 @@ fn coupling_single(f0: f32, f90: f32, dfg: vec2f) -> f32 {
 fn coupling_compensated(f0: f32, f90: f32, dfg: vec2f) -> f32 {
     let average = f0 + (f90 - f0) * (1.0 / 21.0);
     let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
-    return saturate(1.0 - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
 }
 
 /// What makes the coupling reciprocal: (1 - E_spec(l)) / (1 - E_spec,avg) for a light whose split-sum pair is `dfg`; times

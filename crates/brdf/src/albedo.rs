@@ -82,6 +82,9 @@ pub fn directional_albedo_ggx_with<const POINTS: usize>(
     graded(theta_v, 0.5 * scale, rule, |offset, width| polar(theta_v - offset, width));
     graded(middle - theta_v, 0.5 * scale, rule, |offset, width| polar(theta_v + offset, width));
     graded(horizon - middle, 0.5 * scale, rule, |offset, width| polar(horizon - offset, width));
+    // Rounding may leave [0, 1].
+    let all = f64::min(all, 1.0);
+    let bias = f64::min(bias, all);
     [all - bias, bias]
 }
 

@@ -7,18 +7,21 @@
 use crate::Real;
 use crate::multiscatter::average_loss_ggx;
 
+/// 1 less what a table of 45 x 45 texels may be too low by: so that base and interface do not gain.
+const ARRIVING: f64 = 0.9975;
 /// Largest albedo of an interface that is divided by in [`coupling_light`].
 const AVERAGE_CEILING: f64 = 0.99;
 
 /// Share 1 - E_spec(v) of a diffuse BRDF that is left under an interface of reflectances f0 and f90 that scatters once:
 /// E_spec = f0 a + f90 b. Kulla and Conty 2017; OpenPBR 1.1 section 3.
 ///
-/// View-only: with a diffuse BRDF of albedo 1 the two reflect exactly 1, whatever its shape, but exchanging v and l changes
-/// the product by (1 - E(v)) / (1 - E(l)). Domain: every number; the result is held in [0, 1], NaN gives 0.
+/// View-only: with a diffuse BRDF of albedo 1 the two reflect 0.9975, whatever its shape, but exchanging v and l changes
+/// the product by (1 - E(v)) / (1 - E(l)). The 1 is 0.9975, less the largest error of the table that shaders read.
+/// Domain: every number; the result is held in [0, 1], NaN gives 0.
 /// Error in f32: <= 4 ulp of 1.
 #[inline]
 pub fn coupling_single<R: Real>(f0: R, f90: R, dfg: [R; 2]) -> R {
-    (R::ONE - f0 * dfg[0] - f90 * dfg[1]).clamp(R::ZERO, R::ONE)
+    (R::of(ARRIVING) - f0 * dfg[0] - f90 * dfg[1]).clamp(R::ZERO, R::ONE)
 }
 
 /// Share that is left under an interface whose specular lobe is compensated for multiple scattering by any of the
@@ -31,14 +34,14 @@ pub fn coupling_compensated<R: Real>(f0: R, f90: R, dfg: [R; 2]) -> R {
     let average = f0 + (f90 - f0) * R::of(1.0 / 21.0);
     let gain = R::ONE / (dfg[0] + dfg[1]).clamp(R::of(0.1), R::ONE) - R::ONE;
     let single = f0 * dfg[0] + f90 * dfg[1];
-    (R::ONE - single * (R::ONE + average * gain)).clamp(R::ZERO, R::ONE)
+    (R::of(ARRIVING) - single * (R::ONE + average * gain)).clamp(R::ZERO, R::ONE)
 }
 
 /// What makes the coupling reciprocal: (1 - E_spec(l)) / (1 - E_spec,avg) for a light whose split-sum pair is `dfg`; times
 /// [`coupling_single`] of the viewer. Shirley, Smits, Hu, Lafortune 1997, A Practitioners' Assessment of Light Reflection
 /// Models; Kelemen and Szirmay-Kalos 2001.
 ///
-/// With Lambert's BRDF of albedo 1 the sum is 1 up to the fits of the averages (2e-4); a BRDF that is not constant, such as
+/// With Lambert's BRDF of albedo 1 the sum is 0.995 up to the fits of the averages (2e-4); a BRDF that is not constant, such as
 /// EON, is up to 0.7 % above at normal incidence and 4 % below at grazing.
 /// Average of b: our own fit 0.0476 / (1 + 12.6 r^3), within 7e-4. Domain: as [`coupling_single`]; held in [0, 100].
 #[inline]

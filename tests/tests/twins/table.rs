@@ -2,18 +2,20 @@
 //! how far apart they may be. A test proves that no function is missing.
 
 use halfvector_brdf::frame::{Frame, frame_from_normal, half_from_light};
+use halfvector_brdf::lobe_anisotropic::{self, Anisotropic};
 use halfvector_brdf::lobe_coat::{Coat, coat_base, coat_environment, coat_eval};
 use halfvector_brdf::lobe_diffuse::{Diffuse, diffuse_environment, diffuse_eval};
 use halfvector_brdf::lobe_multiscatter::{
     Multiscatter, multiscatter_environment, multiscatter_eval, multiscatter_from_dfg,
 };
+use halfvector_brdf::lobe_sheen::{self, Sheen};
 use halfvector_brdf::lobe_specular::{Specular, specular_environment, specular_eval};
 use halfvector_brdf::lobe_transmission::{
     Transmission, transmission_direction, transmission_environment, transmission_eval, transmission_thin_eval,
 };
 use halfvector_brdf::{
-    anisotropic, beckmann, coupling, dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter, sheen, thin_film,
-    visibility,
+    anisotropic, beckmann, coupling, dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter, sheen,
+    thin_film, visibility,
 };
 use halfvector_ibl::{environment, occlusion};
 use halfvector_maps::{blend, color, derivative, height, normal, octahedral, parallax, texel};
@@ -109,6 +111,15 @@ fn diffuse(x: &[f64], at: usize) -> Diffuse<f64> {
     Diffuse { color: v(x, at), perceptual_roughness: x[at + 3] }
 }
 
+fn anisotropic_lobe(x: &[f64], at: usize) -> Anisotropic<f64> {
+    let (alpha_t, alpha_b) = (x[at + 9], x[at + 10]);
+    Anisotropic { f0: v(x, at), f90: v(x, at + 3), tangent: v(x, at + 6), alpha_t, alpha_b }
+}
+
+fn sheen_lobe(x: &[f64]) -> Sheen<f64> {
+    Sheen { color: v(x, 0), perceptual_roughness: x[3] }
+}
+
 fn coat(x: &[f64], at: usize) -> Coat<f64> {
     Coat { weight: x[at], color: v(x, at + 1), f0: x[at + 4], alpha: x[at + 5] }
 }
@@ -171,6 +182,12 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("brdf/ggx.wgsl" "d_ggx", [HalfAngle, Alpha], 12.0, 0.0, DOUBLE, |x| [ggx::d_ggx(x[0], x[1], x[2])]),
     twin!("brdf/ggx.wgsl" "v_smith_ggx_correlated", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_correlated(x[0], x[1], x[2], x[3])]),
     twin!("brdf/ggx.wgsl" "v_smith_ggx_separable", [Cosine, Cosine, Cosine, Alpha], 10.0, 0.0, DOUBLE, |x| [ggx::v_smith_ggx_separable(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/lobe_anisotropic.wgsl" "anisotropic_alphas_gltf", [Range(-0.5, 1.5), Range(-0.5, 1.5)], 4.0, 0.0, DOUBLE, |x| lobe_anisotropic::anisotropic_alphas_gltf(x[0], x[1])),
+    twin!("brdf/lobe_anisotropic.wgsl" "anisotropic_alphas_openpbr", [Range(-0.5, 1.5), Range(-0.5, 1.5)], 8.0, 0.0, DOUBLE, |x| lobe_anisotropic::anisotropic_alphas_openpbr(x[0], x[1])),
+    twin!("brdf/lobe_anisotropic.wgsl" "anisotropic_environment", [Reflectances(1.0), Unit, Alpha, Alpha, Color(0.0, 1e4), Pair(0.0, 0.5)], 4.0, 0.0, DOUBLE, |x| lobe_anisotropic::anisotropic_environment(anisotropic_lobe(x, 0), v(x, 11), v(x, 14))),
+    twin!("brdf/lobe_anisotropic.wgsl" "anisotropic_eval", [Frame, FrontOfLast, Reflectances(1.0), Unit, Range(0.1, 1.0), Range(0.1, 1.0)], 256.0, 0.1, DOUBLE, |x| lobe_anisotropic::anisotropic_eval(frame(x), v(x, 7), anisotropic_lobe(x, 10))),
+    // A tangent nearly along the view leaves a short cross product.
+    twin!("brdf/lobe_anisotropic.wgsl" "anisotropic_reflection", [Frame, Unit, Range(0.0, 1.0), Range(0.0, 1.0)], 65536.0, 1.0, DOUBLE, |x| lobe_anisotropic::anisotropic_reflection(frame(x), v(x, 7), x[10], x[11])),
     twin!("brdf/lobe_coat.wgsl" "coat_base", [Range(0.0, 1.0), Color(0.01, 1.0), Range(0.0, 0.2), Alpha, Cosine, Pair(0.0, 0.5)], 64.0, 1.0, FLOAT, |x| coat_base(coat(x, 0), x[6], v(x, 7))),
     twin!("brdf/lobe_coat.wgsl" "coat_environment", [Range(0.0, 1.0), Color(0.01, 1.0), Range(0.0, 0.2), Alpha, Color(0.0, 1e4), Pair(0.0, 0.5)], 4.0, 0.0, DOUBLE, |x| coat_environment(coat(x, 0), v(x, 6), v(x, 9))),
     twin!("brdf/lobe_coat.wgsl" "coat_eval", [Frame, FrontOfLast, Range(0.0, 1.0), Color(0.01, 1.0), Range(0.0, 0.2), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| coat_eval(frame(x), v(x, 7), coat(x, 10))),
@@ -182,6 +199,10 @@ pub(crate) const TWINS: &[Twin] = &[
         let p = multiscatter_from_dfg(v(x, 0), v(x, 3), v(x, 6), x[8]);
         [p.color[0], p.color[1], p.color[2], p.loss, p.average_loss]
     }),
+    twin!("brdf/lobe_sheen.wgsl" "sheen_albedo", [Cosine, Range(0.05, 1.0)], 512.0, 1.0, FLOAT, |x| [lobe_sheen::sheen_albedo(x[0], x[1])]),
+    twin!("brdf/lobe_sheen.wgsl" "sheen_base", [Color(0.0, 1.0), Range(0.05, 1.0), Cosine], 512.0, 1.0, FLOAT, |x| [lobe_sheen::sheen_base(sheen_lobe(x), x[4])]),
+    twin!("brdf/lobe_sheen.wgsl" "sheen_environment", [Color(0.0, 1.0), Range(0.05, 1.0), Cosine, Color(0.0, 1.0)], 512.0, 1.0, FLOAT, |x| lobe_sheen::sheen_environment(sheen_lobe(x), x[4], v(x, 5))),
+    twin!("brdf/lobe_sheen.wgsl" "sheen_eval", [Frame, FrontOfLast, Color(0.0, 1.0), Range(0.2, 1.0)], 2048.0, 1.0, FLOAT, |x| lobe_sheen::sheen_eval(frame(x), v(x, 7), sheen_lobe(&x[10..]))),
     // The directions' own rounding is 1 / alpha times as large in D: roughness from 0.3 here, all of it in d_ggx and in
     // the test against the truth.
     twin!("brdf/lobe_specular.wgsl" "specular_eval", [Frame, FrontOfLast, Reflectances(1.0), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| specular_eval(frame(x), v(x, 7), specular(x, 10))),

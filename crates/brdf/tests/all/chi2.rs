@@ -102,7 +102,7 @@ fn integral(bin: Bin, whole: f64, pdf: &dyn Fn([f64; 3]) -> f64, depth: usize) -
         (part, once(part, pdf))
     });
     let sum: f64 = parts.iter().map(|p| p.1).sum();
-    if depth == 0 || depth < 11 && (sum - whole).abs() < 1e-6 + 1e-5 * sum {
+    if depth == 0 || depth < 10 && (sum - whole).abs() < 1e-7 + 1e-5 * sum {
         return sum;
     }
     parts.iter().map(|&(part, value)| integral(part, value, pdf, depth - 1)).sum()
@@ -314,5 +314,8 @@ fn transmission() {
         }
     }
     let view = view_at(0.4, 0.0);
-    chi_square("thin", &|u| transmission_thin_sample(view, 0.3, u), &|l| transmission_thin_pdf(view, l, 0.3));
+    let below = |l: [f64; 3]| if l[2] < 0.0 { l } else { [0.0; 3] };
+    chi_square("thin", &|u| below(transmission_thin_sample(view, 0.3, u)), &|l| {
+        if l[2] < 0.0 { transmission_thin_pdf(view, l, 0.3) } else { 0.0 }
+    });
 }

@@ -7,6 +7,7 @@ mod domain;
 mod energy;
 mod hard_cases;
 mod lobes;
+mod lobes_layered;
 mod points;
 mod precision;
 mod sampling;

@@ -54,8 +54,8 @@ fn default_table_is_within_its_errors() {
         }
     }
     println!("table, {} points: a + b, b, relative a + b: {inner:.4?} inside, {anywhere:.4?} anywhere", truth.len());
-    assert!(inner[0] < 1.6e-3 && inner[1] < 2.2e-3 && inner[2] < 2.2e-3, "{inner:?}");
-    assert!(anywhere[0] < 8e-3 && anywhere[1] < 7e-3, "{anywhere:?}");
+    assert!(inner[0] < 1.2e-3 && inner[1] < 2e-3 && inner[2] < 2.2e-3, "{inner:?}");
+    assert!(anywhere[0] < 4e-3 && anywhere[1] < 4e-3, "{anywhere:?}");
 }
 
 #[test]
@@ -129,12 +129,12 @@ fn furnace_through_the_table() {
         "white metal through the table: within {metal:.1e}, elsewhere {metal_anywhere:.1e}; base {low:.5}..{high:.5}"
     );
     assert!(metal < 3e-3 && metal_anywhere < 3e-2);
-    assert!(low > 0.97 && high < 1.001 + 2e-3, "{low} {high}");
+    assert!(low > 0.97 && high < 1.001, "{low} {high}");
     // A mirror, where the lobe is a delta and its albedo is Schlick's: nothing is compensated, nothing is lost.
     for n_dot_v in [0.001, 0.05, 0.3, 1.0] {
         let dfg = read(n_dot_v, 0.0);
         let fresnel = (1.0 - n_dot_v).powi(5);
         assert!((energy_compensation(white, white, dfg)[0] - 1.0).abs() < 3e-3);
-        assert!((0.04 + 0.96 * fresnel + coupling_single(0.04, 1.0, dfg) - 1.0).abs() < 3e-3);
+        assert!((0.04 + 0.96 * fresnel + coupling_single(0.04, 1.0, dfg) - 1.0).abs() < 6e-3);
     }
 }

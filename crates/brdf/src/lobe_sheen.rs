@@ -1,0 +1,77 @@
+//! Sheen: the fuzz of cloth over all that lies below. Charlie's distribution (Estevez and Kulla 2017, Production Friendly
+//! Microfacet Sheen BRDF) with Neubelt and Pettineo's visibility, as in Khronos 2020, KHR_materials_sheen.
+//!
+//! That pair is no BRDF at grazing angles: its directional albedo E reaches 3.2 at n.v = 0.004, roughness 0.1, and grows
+//! without bound as both fall. Here the lobe is divided by max(1, 1.03 E(v), 1.03 E(l)), which is reciprocal and reflects
+//! at most what arrives; where both albedos are below 0.97 it is the published form.
+
+use crate::Real;
+use crate::frame::{Frame, half_from_light};
+use crate::math::finite_or_zero;
+use crate::sheen::{d_charlie, v_neubelt};
+use crate::vector::scale;
+
+/// Smallest perceptual roughness of the fit of the albedo.
+const SHEEN_ROUGHNESS_FLOOR: f64 = 0.05;
+/// What the fit of the albedo may be too low by, as a factor.
+const SHEEN_MARGIN: f64 = 1.03;
+
+/// Parameters of the sheen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sheen<R> {
+    /// Colour times weight, linear Rec. 709, in [0, 1].
+    pub color: [R; 3],
+    /// Artist's roughness in [0, 1]; held above 0.05.
+    pub perceptual_roughness: R,
+}
+
+/// Directional albedo of the white lobe before it is held at 1: our own fit to quadrature in the perceptual roughness r,
+/// E = (0.3848 + 0.0543 r + 0.1748 r^2) / r exp(-(1.0701 + 1.0386 / r - 0.7959 r) mu^0.89).
+///
+/// Domain: n_dot_w in [0, 1] (held), perceptual_roughness in [0.05, 1] (held). Error: <= 0.028 max(1, E).
+#[inline]
+pub fn sheen_albedo<R: Real>(n_dot_w: R, perceptual_roughness: R) -> R {
+    let r = perceptual_roughness.clamp(R::of(SHEEN_ROUGHNESS_FLOOR), R::ONE);
+    let inv_r = R::ONE / r;
+    let mu = n_dot_w.clamp(R::of(1e-7), R::ONE);
+    let at_grazing = (R::of(0.3848) + r * (R::of(0.0543) + r * R::of(0.1748))) * inv_r;
+    let falloff = R::of(1.0701) + R::of(1.0386) * inv_r - R::of(0.7959) * r;
+    // log2(e) = 1.442695
+    at_grazing * (R::of(-1.442695) * falloff * (R::of(0.89) * mu.log2()).exp2()).exp2()
+}
+
+/// BRDF times n.l for the unit direction `l` to a light, color D V n.l / max(1, 1.03 E(v), 1.03 E(l)) in 1/sr; 0 where the
+/// light is behind the surface.
+///
+/// Reciprocal. Any input gives a finite result: a channel that would be NaN or infinite is 0.
+#[inline]
+pub fn sheen_eval<R: Real>(frame: Frame<R>, l: [R; 3], p: Sheen<R>) -> [R; 3] {
+    let h = half_from_light(frame, l);
+    let r = p.perceptual_roughness.clamp(R::of(SHEEN_ROUGHNESS_FLOOR), R::ONE);
+    let d = d_charlie(h.n_dot_h, h.sin2_theta_h, r * r);
+    let v = v_neubelt(frame.n_dot_v, h.n_dot_l, h.l_dot_h, r * r);
+    let most = sheen_albedo(frame.n_dot_v, r).max(sheen_albedo(h.n_dot_l, r)) * R::of(SHEEN_MARGIN);
+    finite_or_zero(scale(p.color, v * h.n_dot_l * d / most.max(R::ONE)))
+}
+
+/// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1) times the radiance filtered by the
+/// lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
+///
+/// Any input gives a finite result: a channel that would be NaN or infinite is 0.
+#[inline]
+pub fn sheen_environment<R: Real>(p: Sheen<R>, n_dot_v: R, prefiltered_radiance: [R; 3]) -> [R; 3] {
+    let albedo = sheen_albedo(n_dot_v, p.perceptual_roughness).min(R::ONE);
+    finite_or_zero([0, 1, 2].map(|i| p.color[i] * albedo * prefiltered_radiance[i]))
+}
+
+/// What the base keeps of its own light below the sheen: 1 - max(color) min(E(v), 1). Estevez and Kulla 2017, albedo
+/// scaling; the same for all channels, so that a coloured sheen tints nothing twice.
+///
+/// View-only. In [0, 1] for any numbers: a weight can not become negative. Base and sheen together reflect at most 1.03
+/// times what arrives (the fit's error).
+#[inline]
+pub fn sheen_base<R: Real>(p: Sheen<R>, n_dot_v: R) -> R {
+    let albedo = sheen_albedo(n_dot_v, p.perceptual_roughness).min(R::ONE);
+    let most = p.color[0].max(p.color[1]).max(p.color[2]);
+    (R::ONE - most * albedo).clamp(R::ZERO, R::ONE)
+}
