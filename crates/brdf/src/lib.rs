@@ -1,7 +1,8 @@
 //! BRDF math: Fresnel, GGX, Beckmann, cloth, diffuse, thin films, split-sum terms and the lobes made of them, generic over `f32` and `f64`.
 //!
 //! Each function has a twin of the same file, name, argument order and unit in the WGSL library (`shaders/brdf/*.wgsl`
-//! and `shaders/math.wgsl`); a test holds them together. [`sampling`] alone has none.
+//! and `shaders/math.wgsl`); a test holds them together. Sampling ([`sampling`],
+//! [`sampling_bounded`], [`lobe_sampling`]) and quadrature ([`albedo`]) have none.
 //!
 //! The crate knows no file, no GPU and no graph, and depends on `std` alone. Vectors are `[R; 3]`, colours are linear
 //! Rec. 709, directions point away from the surface and are unit. BRDFs are in 1/sr.

@@ -4,6 +4,7 @@
 use halfvector_brdf::albedo::{average_albedo_ggx, directional_albedo_ggx, gauss_legendre};
 use halfvector_brdf::coupling::{coupling_compensated, coupling_light, coupling_single};
 use halfvector_brdf::dfg::dfg_fit;
+use halfvector_brdf::diffuse::{diffuse_burley, diffuse_eon, diffuse_fon, diffuse_lambert, diffuse_oren_nayar};
 use halfvector_brdf::frame::frame_from_normal;
 use halfvector_brdf::lobe_multiscatter::{multiscatter_eval, multiscatter_from_dfg};
 use halfvector_brdf::math::PI;
@@ -228,4 +229,68 @@ fn the_fit_is_within_its_errors() {
             assert!((0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b), "{n_dot_v} {roughness}: {a} {b}");
         }
     }
+}
+
+type DiffuseForm = fn([f64; 3], f64, f64, f64, f64) -> [f64; 3];
+
+/// Albedo of a diffuse form of albedo 1, seen at n.v, with a weight on each light.
+fn diffuse_albedo(form: DiffuseForm, n_dot_v: f64, roughness: f64, weight: &dyn Fn(f64) -> f64) -> f64 {
+    let view = direction(n_dot_v);
+    let mut sum = 0.0;
+    for [x, w] in gauss_legendre::<48>() {
+        let t = (x + 1.0) / 2.0;
+        let mu = t * t;
+        for k in 0..96 {
+            let (sin, cos) = (PI * (f64::from(k) + 0.5) / 96.0).sin_cos();
+            let s = (1.0 - mu * mu).sqrt();
+            let half = [s * cos + view[0], s * sin, mu + view[2]];
+            let l_dot_h = 0.5 * half.iter().map(|c| c * c).sum::<f64>().sqrt();
+            let brdf = form(WHITE, n_dot_v, mu, l_dot_h, roughness)[0];
+            sum += w * t * (2.0 * PI / 96.0) * brdf * mu * weight(mu);
+        }
+    }
+    sum
+}
+
+/// What `docs/energy.md` prints, and the furnace of the coupled base: Lambert and EON reflect all.
+#[test]
+fn diffuse_forms_reflect_what_is_published() {
+    let whole = |_: f64| 1.0;
+    for (name, form, roughness, albedos) in [
+        ("burley", diffuse_burley as DiffuseForm, 0.0, [0.688, 0.894, 0.976]),
+        ("burley", diffuse_burley, 0.5, [1.024, 1.019, 1.006]),
+        ("burley", diffuse_burley, 1.0, [1.380, 1.151, 1.036]),
+        ("fon", diffuse_fon, 0.5, [0.986, 0.955, 0.874]),
+        ("fon", diffuse_fon, 1.0, [0.974, 0.920, 0.777]),
+        ("oren_nayar", diffuse_oren_nayar, 0.25, [1.006, 0.992, 0.920]),
+        ("oren_nayar", diffuse_oren_nayar, 1.0, [0.816, 0.784, 0.624]),
+    ] {
+        for (n_dot_v, published) in [0.1, 0.3, 1.0].into_iter().zip(albedos) {
+            let albedo = diffuse_albedo(form, n_dot_v, roughness, &whole);
+            assert!((albedo - published).abs() < 2e-3, "{name} {roughness}, n.v {n_dot_v}: {albedo} for {published}");
+        }
+    }
+    let (mut low, mut high, mut reciprocal) = (f64::INFINITY, 0.0_f64, (f64::INFINITY, 0.0_f64));
+    for specular_roughness in [0.089, 0.4, 1.0] {
+        for n_dot_v in [0.05, 0.3, 0.7, 1.0] {
+            let dfg = directional_albedo_ggx(n_dot_v, specular_roughness);
+            let single = 0.04 * dfg[0] + dfg[1];
+            let view = coupling_single(0.04, 1.0, dfg);
+            for roughness in [0.0, 0.5, 1.0] {
+                for form in [diffuse_lambert as DiffuseForm, diffuse_eon] {
+                    let total = single + view * diffuse_albedo(form, n_dot_v, roughness, &whole);
+                    (low, high) = (low.min(total), high.max(total));
+                }
+            }
+            // The reciprocal coupling with EON, at a roughness whose albedo is Schlick's.
+            if specular_roughness == 0.089 {
+                let schlick = |mu: f64| coupling_light(0.04, 1.0, dfg_fit(mu, 0.0), 0.0);
+                let total = single + view * diffuse_albedo(diffuse_eon, n_dot_v, 1.0, &schlick);
+                reciprocal = (reciprocal.0.min(total), reciprocal.1.max(total));
+            }
+        }
+    }
+    println!("Lambert and EON under a dielectric: {low:.4} to {high:.4}; EON, reciprocal: {reciprocal:.4?}");
+    assert!(low >= 0.97 && high <= 1.001, "{low} {high}");
+    assert!(reciprocal.0 > 0.95 && reciprocal.1 < 1.01, "{reciprocal:?}");
 }
