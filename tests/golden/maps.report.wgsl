@@ -1,6 +1,6 @@
 // Four maps, made by Halfvector
 // serves: an environment; returns linear radiance, Rec. 709
-// methods: dfg=table, prefilter=ggx, level_map=report, irradiance=last_level, encode=report
+// methods: coupling=none, dfg=table, prefilter=ggx, level_map=report, irradiance=last_level, encode=report
 // left out: energy compensation: the method is `none`: single scattering only
 // left out: emission: it is 0
 // left out: occlusion: it is 1
@@ -63,9 +63,9 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let diffuse_albedo = albedo.color * (1.0 - metalness.r);
     let f0 = f0_from_metallic(albedo.color, metalness.r, 0.040000003);
     let frame = frame_from_normal(normal_map, view_dir);
-    let diffuse = Diffuse(diffuse_albedo, roughness.r);
     let specular = Specular(f0, vec3f(1.0), alpha_from_perceptual_roughness(roughness.r));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, roughness.r);
+    let diffuse = Diffuse(diffuse_albedo, roughness.r);
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
     let irradiance = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, lod_report(1.0, view.environment_levels)));
     var radiance = diffuse_environment(diffuse, irradiance);
@@ -192,11 +192,11 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for sqrt(n_dot_v) and along y for the perceptual roughness: both ends of each range are texels, and grazing
-/// angles, where the albedo changes within n_dot_v of about alpha, have the most of them.
+/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness));
+    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }

@@ -1,6 +1,6 @@
 // Four maps, made by Halfvector
 // serves: 1 directional light; returns linear radiance, Rec. 709
-// methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, compensation=turquin, dfg=table
+// methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, compensation=turquin, coupling=view, dfg=table
 // left out: environment light: the scene has no environment: 2 cubes and their lookups saved
 // left out: emission: it is 0
 // left out: opacity: the material is opaque
@@ -68,14 +68,27 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let diffuse_albedo = albedo.color * (1.0 - metalness.r);
     let f0 = f0_from_metallic(albedo.color, metalness.r, 0.040000003);
     let frame = frame_from_normal(normal_map, view_dir);
-    let diffuse = Diffuse(diffuse_albedo, roughness.r);
     let specular = Specular(f0, vec3f(1.0), alpha_from_perceptual_roughness(max(roughness.r, PUNCTUAL_ROUGHNESS_FLOOR)));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, roughness.r);
-    let compensation = energy_compensation(specular.f0, dfg);
+    let compensation = energy_compensation(specular.f0, specular.f90, dfg);
+    let diffuse = Diffuse(diffuse_albedo * coupling_compensated(0.040000003, 1.0, dfg), roughness.r);
     let directional_light = directional_light_sample(lights.directional, in.world_position);
     var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * directional_light.illuminance;
     radiance += specular_eval(frame, directional_light.dir, specular) * compensation * directional_light.illuminance;
     return vec4f(radiance, 1.0);
+}
+
+// ---- brdf/coupling.wgsl
+
+// 1 less what a table of 45 x 45 texels may be too low by: so that base and interface do not gain.
+const ARRIVING: f32 = 0.9975;
+
+/// Share that is left under an interface whose specular lobe is compensated for multiple scattering by any of the
+/// methods: 1 - E_spec (1 + F_avg (1/E - 1)), a bound of them all.
+fn coupling_compensated(f0: f32, f90: f32, dfg: vec2f) -> f32 {
+    let average = f0 + (f90 - f0) * (1.0 / 21.0);
+    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
 }
 
 // ---- brdf/diffuse.wgsl
@@ -247,10 +260,11 @@ fn f0_from_metallic(base_color: vec3f, metallic: f32, dielectric_f0: f32) -> vec
 const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
 
 /// Turquin 2019, Practical Multiple Scattering Compensation for Microfacet Models: the factor 1 + f0 (1/E - 1) on the
-/// single-scattering lobe, E = a + b the directional albedo of a white one.
-fn energy_compensation(f0: vec3f, dfg: vec2f) -> vec3f {
-    let directional_albedo = max(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR);
-    return 1.0 + f0 * (1.0 / directional_albedo - 1.0);
+/// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
+/// signature.
+fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
+    let gain = 1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0) - 1.0;
+    return 1.0 + saturate(f0) * gain;
 }
 
 // ---- entry/transform.wgsl
@@ -278,11 +292,11 @@ fn tangent_in_world(world_from_object: mat4x4f, tangent: vec4f) -> vec4f {
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for sqrt(n_dot_v) and along y for the perceptual roughness: both ends of each range are texels, and grazing
-/// angles, where the albedo changes within n_dot_v of about alpha, have the most of them.
+/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness));
+    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }

@@ -51,7 +51,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let frame = frame_from_normal(world_normal, view_dir);
     let specular = Specular(vec3f(1.0, 0.766, 0.336), vec3f(1.0), alpha_from_perceptual_roughness(0.2));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.2);
-    let compensation = energy_compensation(specular.f0, dfg);
+    let compensation = energy_compensation(specular.f0, specular.f90, dfg);
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
     let reflection_lod = lod_linear(0.2, view.environment_levels);
     let reflection = environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
@@ -125,10 +125,11 @@ fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) ->
 const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
 
 /// Turquin 2019, Practical Multiple Scattering Compensation for Microfacet Models: the factor 1 + f0 (1/E - 1) on the
-/// single-scattering lobe, E = a + b the directional albedo of a white one.
-fn energy_compensation(f0: vec3f, dfg: vec2f) -> vec3f {
-    let directional_albedo = max(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR);
-    return 1.0 + f0 * (1.0 / directional_albedo - 1.0);
+/// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
+/// signature.
+fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
+    let gain = 1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0) - 1.0;
+    return 1.0 + saturate(f0) * gain;
 }
 
 // ---- entry/transform.wgsl
@@ -159,11 +160,11 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for sqrt(n_dot_v) and along y for the perceptual roughness: both ends of each range are texels, and grazing
-/// angles, where the albedo changes within n_dot_v of about alpha, have the most of them.
+/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness));
+    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }

@@ -1,10 +1,10 @@
 // Names * / } fn main() { of any script, made by Halfvector
 // serves: 1 directional light; returns linear radiance, Rec. 709
-// methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert
+// methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, coupling=view, dfg=table
 // left out: environment light: the scene has no environment: 2 cubes and their lookups saved
 // left out: metal: metallic is 0: f0 comes from the index of refraction alone
 // left out: energy compensation: f0 is 0.040 and fixed: it would change radiance by less than 0.7 % of that of a
-//     uniform environment; no table over (n.v, roughness) is read for it
+//     uniform environment
 // left out: emission: it is 0
 // left out: opacity: the material is opaque
 // left out: displacement: height is 0
@@ -18,6 +18,8 @@ struct Lights {
     directional: DirectionalLight,
 }
 @group(0) @binding(1) var<uniform> lights: Lights;
+@group(0) @binding(4) var dfg_table: texture_2d<f32>;
+@group(0) @binding(5) var linear_clamp: sampler;
 struct Object {
     world_from_object: mat4x4f,
     normal_from_object: mat3x3f,
@@ -56,12 +58,24 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let discard_2 = mix(0.0, 1.0, fn_2); // 錆 * / discard; }
     let discard_3 = mix(discard_2, 1.0, 0.5); // 錆 * / discard; }
     let frame = frame_from_normal(world_normal, view_dir);
-    let diffuse = Diffuse(vec3f(0.8), discard_3);
     let specular = Specular(vec3f(0.040000003), vec3f(1.0), alpha_from_perceptual_roughness(max(discard_3, PUNCTUAL_ROUGHNESS_FLOOR)));
+    let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, discard_3);
+    let diffuse = Diffuse(vec3f(0.8) * coupling_single(0.040000003, 1.0, dfg), discard_3);
     let directional_light = directional_light_sample(lights.directional, in.world_position);
     var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * directional_light.illuminance;
     radiance += specular_eval(frame, directional_light.dir, specular) * directional_light.illuminance;
     return vec4f(radiance, 1.0);
+}
+
+// ---- brdf/coupling.wgsl
+
+// 1 less what a table of 45 x 45 texels may be too low by: so that base and interface do not gain.
+const ARRIVING: f32 = 0.9975;
+
+/// Share 1 - E_spec(v) of a diffuse BRDF that is left under an interface of reflectances f0 and f90 that scatters once:
+/// E_spec = f0 a + f90 b. Kulla and Conty 2017; OpenPBR 1.1 section 3. View-only.
+fn coupling_single(f0: f32, f90: f32, dfg: vec2f) -> f32 {
+    return saturate(ARRIVING - f0 * dfg.x - f90 * dfg.y);
 }
 
 // ---- brdf/diffuse.wgsl
@@ -231,6 +245,19 @@ fn position_in_world(world_from_object: mat4x4f, position: vec3f) -> vec3f {
 /// for flat transforms too. A vertex without a normal gives zero, which the interpolation then ignores.
 fn normal_in_world(normal_from_object: mat3x3f, normal: vec3f) -> vec3f {
     return normalize_or(normal_from_object * normal, vec3f(0.0));
+}
+
+// ---- ibl/environment.wgsl
+
+/// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
+/// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
+/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
+fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
+    let size = vec2f(textureDimensions(table));
+    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
+    let uv = (place * (size - 1.0) + 0.5) / size;
+    return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
 
 // ---- light.wgsl

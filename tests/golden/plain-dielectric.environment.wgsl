@@ -1,9 +1,9 @@
 // Plain dielectric, made by Halfvector
 // serves: an environment; returns linear radiance, Rec. 709
-// methods: dfg=table, prefilter=ggx, level_map=linear, irradiance=cube
+// methods: coupling=view, dfg=table, prefilter=ggx, level_map=linear, irradiance=cube
 // left out: metal: metallic is 0: f0 comes from the index of refraction alone
 // left out: energy compensation: f0 is 0.040 and fixed: it would change radiance by less than 0.7 % of that of a
-//     uniform environment; no table over (n.v, roughness) is read for it
+//     uniform environment
 // left out: emission: it is 0
 // left out: occlusion: it is 1
 // left out: horizon: the shading normal is the geometry's: no reflection comes from below
@@ -57,9 +57,9 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let world_normal = normalize_or(in.world_normal, vec3f(0.0, 0.0, 1.0));
     let view_dir = normalize(view.camera_position - in.world_position);
     let frame = frame_from_normal(world_normal, view_dir);
-    let diffuse = Diffuse(parameters.base_color, parameters.perceptual_roughness);
     let specular = Specular(vec3f(0.040000003), vec3f(1.0), alpha_from_perceptual_roughness(parameters.perceptual_roughness));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, parameters.perceptual_roughness);
+    let diffuse = Diffuse(parameters.base_color * coupling_single(0.040000003, 1.0, dfg), parameters.perceptual_roughness);
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, frame.normal, 0.0);
     var radiance = diffuse_environment(diffuse, irradiance);
@@ -67,6 +67,17 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let reflection = environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
     radiance += specular_environment(specular, reflection, dfg);
     return vec4f(radiance, 1.0);
+}
+
+// ---- brdf/coupling.wgsl
+
+// 1 less what a table of 45 x 45 texels may be too low by: so that base and interface do not gain.
+const ARRIVING: f32 = 0.9975;
+
+/// Share 1 - E_spec(v) of a diffuse BRDF that is left under an interface of reflectances f0 and f90 that scatters once:
+/// E_spec = f0 a + f90 b. Kulla and Conty 2017; OpenPBR 1.1 section 3. View-only.
+fn coupling_single(f0: f32, f90: f32, dfg: vec2f) -> f32 {
+    return saturate(ARRIVING - f0 * dfg.x - f90 * dfg.y);
 }
 
 // ---- brdf/dfg.wgsl
@@ -172,11 +183,11 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for sqrt(n_dot_v) and along y for the perceptual roughness: both ends of each range are texels, and grazing
-/// angles, where the albedo changes within n_dot_v of about alpha, have the most of them.
+/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness));
+    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }

@@ -1,7 +1,7 @@
 // Surface, made by Halfvector
 // serves: an environment; returns linear radiance, Rec. 709
-// methods: dfg=table, prefilter=ggx, level_map=report, irradiance=last_level, specular_occlusion=plain,
-//     height_normals=report, encode=report
+// methods: coupling=none, dfg=table, prefilter=ggx, level_map=report, irradiance=last_level,
+//     specular_occlusion=plain, height_normals=report, encode=report
 // left out: energy compensation: the method is `none`: single scattering only
 // left out: horizon: the shading normal is the geometry's: no reflection comes from below
 // left out: opacity: the material is opaque
@@ -65,9 +65,9 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let f0 = f0_from_metallic(parameters.base_color, parameters.metallic, dielectric_f0_2);
     let f90 = mix(parameters.specular, 1.0, parameters.metallic);
     let frame = frame_from_normal(world_normal, view_dir);
-    let diffuse = Diffuse(diffuse_albedo, parameters.perceptual_roughness);
     let specular = Specular(f0, vec3f(f90), alpha_from_perceptual_roughness(parameters.perceptual_roughness));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, parameters.perceptual_roughness);
+    let diffuse = Diffuse(diffuse_albedo, parameters.perceptual_roughness);
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
     let irradiance = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, lod_report(1.0, view.environment_levels)));
     var radiance = diffuse_environment(diffuse, irradiance) * parameters.occlusion;
@@ -209,11 +209,11 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for sqrt(n_dot_v) and along y for the perceptual roughness: both ends of each range are texels, and grazing
-/// angles, where the albedo changes within n_dot_v of about alpha, have the most of them.
+/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness));
+    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
