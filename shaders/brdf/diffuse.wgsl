@@ -81,7 +81,8 @@ fn diffuse_eon(albedo: vec3f, n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, perceptu
     let multiple = average * (a * r * lost * (1.0 / (FON_A - FON_AVERAGE)));
     let rho = clamp(albedo, vec3f(0.0), vec3f(1.0));
     let bounced = rho * multiple / (1.0 - rho * (1.0 - average));
-    return rho * (fon(n_dot_v, n_dot_l, l_dot_h, r) + bounced) * INV_PI;
+    // The polynomial makes `lost` as low as -1.4e-4 at grazing angles.
+    return rho * max(fon(n_dot_v, n_dot_l, l_dot_h, r) + bounced, vec3f(0.0)) * INV_PI;
 }
 
 /// Directional albedo of FON of albedo 1 by the EON paper's polynomial; relative error of the fit <= 6e-4.

@@ -72,7 +72,7 @@ fn ior_from_f0(f0: f32) -> f32 {
 /// edge tint, the reflectance at l.h = 1/7 relative to Schlick's there:
 /// F = F_S(l.h) - l.h (1 - l.h)^6 / (m (1 - m)^6) F_S(m) (1 - f82_tint), m = 1/7 (82 degrees), F_S of f90 = 1.
 ///
-/// The equation is as low as -0.08 for a dark f0 with a dark tint, which no metal has: F is held in [0, 1].
+/// The equation is as low as -0.13 for a dark f0 with a dark tint, which no metal has: F is held in [0, 1].
 fn f_f82_tint(f0: vec3f, f82_tint: vec3f, l_dot_h: f32) -> vec3f {
     let x = clamp(1.0 - l_dot_h, 0.0, 1.0);
     let at_82 = f0 + (1.0 - f0) * F82_SCHLICK_WEIGHT;

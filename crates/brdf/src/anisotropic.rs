@@ -17,6 +17,13 @@ const V_ANISOTROPIC_FLOOR: f64 = 1e-36;
 /// With s = alpha_t alpha_b and w = s / ((alpha_b t.h)^2 + (alpha_t b.h)^2 + (s n.h)^2) it is s w^2 / pi: no alpha is
 /// divided by, and no square leaves f32 (w <= 1 / s). alpha_t = alpha_b is `d_ggx`.
 /// Edges: an alpha of 0 gives 0. Error in f32: <= 12 ulp for exact arguments.
+///
+/// ```
+/// use halfvector_brdf::anisotropic::d_ggx_anisotropic;
+/// // At the peak: 1 / (pi alpha_t alpha_b).
+/// let d = d_ggx_anisotropic([0.0, 0.0, 1.0], 0.1_f64, 0.5);
+/// assert!((d - 1.0 / (std::f64::consts::PI * 0.05)).abs() < 1e-14);
+/// ```
 #[inline]
 pub fn d_ggx_anisotropic<R: Real>(h_in_tangent: [R; 3], alpha_t: R, alpha_b: R) -> R {
     let s = alpha_t * alpha_b;

@@ -21,7 +21,8 @@ pub fn diffuse_lambert<R: Real>(
 /// albedo (1 + (F90 - 1)(1 - n.l)^5)(1 + (F90 - 1)(1 - n.v)^5) / pi,  F90 = 1/2 + 2 perceptual_roughness (l.h)^2.
 ///
 /// Domain: cosines and roughness in [0, 1]. It is reciprocal but does not keep energy: at high roughness and grazing
-/// angles it reflects more than it receives. Error in f32: <= 8 ulp.
+/// angles it reflects more than it receives. A white surface reflects 0.535 (n.v = 0.02, roughness 0) to 1.519 (n.v = 0.02,
+/// roughness 1) of the light. Error in f32: <= 8 ulp.
 #[inline]
 pub fn diffuse_burley<R: Real>(albedo: [R; 3], n_dot_v: R, n_dot_l: R, l_dot_h: R, perceptual_roughness: R) -> [R; 3] {
     let f90_minus_1 = R::of(2.0) * perceptual_roughness * l_dot_h * l_dot_h - R::of(0.5);
@@ -47,8 +48,8 @@ fn fujii_ratio<R: Real>(n_dot_v: R, n_dot_l: R, l_dot_h: R) -> R {
 /// A = 1 - s2 / (2 (s2 + 0.33)), B = 0.45 s2 / (s2 + 0.09), s2 = sigma^2.
 ///
 /// sigma, the standard deviation of the slope's angle in radians, is taken to be perceptual_roughness.
-/// sin(a) tan(b) cos(phi) = (v.l - n.v n.l) / max(n.v, n.l). It is reciprocal and neither keeps energy (it loses up to 16 %
-/// at roughness 1) nor is smooth where cos(phi) changes its sign.
+/// sin(a) tan(b) cos(phi) = (v.l - n.v n.l) / max(n.v, n.l). It is reciprocal and neither keeps energy (a white
+/// surface reflects 0.624 to 1.011 of the light) nor is smooth where cos(phi) changes its sign.
 /// Domain: cosines in [1e-6, 1], roughness and albedo in [0, 1]. Error in f32: <= 12 ulp but for the rounding of v.l, which
 /// counts 1 / max(n.v, n.l) times.
 #[inline]
@@ -100,7 +101,15 @@ const FON_AVERAGE: f64 = 2.0 / 3.0 - 28.0 / 15.0 * INV_PI;
 ///
 /// 1 - E = A r (c - G/pi), c = 1/2 - 2/(3 pi), and 1 - E_avg = A r (c - c_avg): the quotient is A r (..)(..) / (c - c_avg),
 /// which is 0 at r = 0, where the paper's is 0 / 0. Albedos are held in [0, 1]: at 5.98 m has a pole.
-/// A white surface reflects all but 6e-4. Domain and error as [`diffuse_fon`].
+/// A white surface reflects 1 to 8e-4. Domain and error as [`diffuse_fon`].
+///
+/// ```
+/// use halfvector_brdf::diffuse::{diffuse_eon, diffuse_lambert};
+/// // n.v, n.l, l.h, roughness: smooth is Lambert's.
+/// let albedo = [0.8, 0.5, 0.2_f64];
+/// let (smooth, lambert) = (diffuse_eon(albedo, 0.7, 0.4, 0.9, 0.0), diffuse_lambert(albedo, 0.7, 0.4, 0.9, 0.0));
+/// assert!((0..3).all(|i| (smooth[i] - lambert[i]).abs() < 1e-15));
+/// ```
 #[inline]
 pub fn diffuse_eon<R: Real>(albedo: [R; 3], n_dot_v: R, n_dot_l: R, l_dot_h: R, perceptual_roughness: R) -> [R; 3] {
     let r = perceptual_roughness;
@@ -122,7 +131,7 @@ pub fn diffuse_eon_exact<R: Real>(
     eon(albedo, fon(n_dot_v, n_dot_l, l_dot_h, r), fon_lost_exact(n_dot_v) * fon_lost_exact(n_dot_l), r)
 }
 
-/// EON of pi times FON, and of (c - G(v)/pi)(c - G(l)/pi).
+/// EON of pi times FON, and of (c - G(v)/pi)(c - G(l)/pi), which the polynomial makes as low as -1.4e-4 at grazing angles.
 #[inline]
 fn eon<R: Real>(albedo: [R; 3], fon: R, lost: R, r: R) -> [R; 3] {
     let a = fon_scale(r);
@@ -131,7 +140,7 @@ fn eon<R: Real>(albedo: [R; 3], fon: R, lost: R, r: R) -> [R; 3] {
     albedo.map(|c| {
         let rho = c.clamp(R::ZERO, R::ONE);
         let bounced = rho * multiple / (R::ONE - rho * (R::ONE - average));
-        rho * (fon + bounced) * R::of(INV_PI)
+        rho * (fon + bounced).max(R::ZERO) * R::of(INV_PI)
     })
 }
 

@@ -22,6 +22,13 @@ const NEUBELT_FLOOR: f64 = 1e-36;
 /// (Kahan's, in Goldberg 1991, What Every Computer Scientist Should Know About Floating-Point Arithmetic, theorem 4).
 /// Edges: sin = 0 gives 0; alpha below 1e-8 is taken as 1e-8; never above 1.6e7.
 /// Error in f32: <= 8 ulp for powers near 1, (8 + 2 |ln of the power|) ulp in general.
+///
+/// ```
+/// use halfvector_brdf::sheen::d_charlie;
+/// // Fibres stand up: nothing at h = n, most at the horizon.
+/// assert_eq!(d_charlie(1.0, 0.0, 0.25_f64), 0.0);
+/// assert!((d_charlie(0.0, 1.0, 0.25_f64) - 3.0 / std::f64::consts::PI).abs() < 1e-15);
+/// ```
 #[inline]
 pub fn d_charlie<R: Real>(n_dot_h: R, sin2_theta_h: R, alpha: R) -> R {
     let exponent = R::ONE / alpha.max(R::of(CHARLIE_ALPHA_FLOOR));

@@ -55,7 +55,16 @@ const LOBE_WEIGHTS: [[f64; 5]; 3] = [
 /// Domain: film_ior in [1, 10], thickness in [0, 1e5], base_eta in [1e-3, 1e6], base_k in [0, 1e6], cos_theta in [0, 1] (all
 /// held there; a film_ior below 1 reflects all beyond its critical angle). The result is held in [0, 1]: colours outside
 /// Rec. 709 lose what is negative. Thickness 0 is the bare base, exactly.
-/// Against integration over the spectrum: <= 0.03 on dielectrics, 0.07 on metals. Error in f32: 5e-5 to a thickness of 1000.
+/// Against integration over the spectrum, thickness 40 to 1220: off by 0.008 on glass; on silver and iron by 0.025 for cosines
+/// from 0.5, 0.18 at 0.1, where the orders beyond the third count. Error in f32: 1e-5 to a thickness of 1000.
+///
+/// ```
+/// use halfvector_brdf::{fresnel::f_dielectric, thin_film::f_thin_film};
+/// let glass = |thickness: f64| f_thin_film(1.33, thickness, [1.5; 3], [0.0; 3], 0.8);
+/// assert!((glass(0.0)[0] - f_dielectric(1.5, 0.8)).abs() < 1e-9);
+/// // A quarter of a wavelength of water darkens glass.
+/// assert!(glass(110.0)[1] < 0.5 * glass(0.0)[1]);
+/// ```
 #[inline]
 pub fn f_thin_film<R: Real>(film_ior: R, thickness: R, base_eta: [R; 3], base_k: [R; 3], cos_theta: R) -> [R; 3] {
     let c1 = cos_theta.clamp(R::ZERO, R::ONE);

@@ -1,5 +1,5 @@
 //! Forms of V = G / (4 n.l n.v) that are cheaper or older than Smith's own, with the signature of Smith's: one can stand
-//! for another. None of them follows from D, so none conserves energy with it; the measured albedos say how much that is.
+//! for another. None of them follows from D, so none conserves energy with it.
 //!
 //! Domain: alpha in [1e-8, 1], cosines in [1e-6, 1]. An argument that a form does not look at may be anything.
 
@@ -11,9 +11,14 @@ const V_DENOMINATOR_FLOOR: f64 = 1e-36;
 /// Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microfacets, an approximation of the height-correlated Smith form:
 /// V = 1/2 / (2 n.l n.v (1 - alpha) + (n.l + n.v) alpha).
 ///
-/// Exact at alpha 0 and 1, no square root. Against `v_smith_ggx_correlated`, cosines from 0.01: V up to 37 % too small,
-/// 4 % rms (worst at alpha 0.01, both cosines 0.01).
+/// Exact at alpha 0 and 1, no square root. Against `v_smith_ggx_correlated`, cosines from 0.01 and alpha from 0.002, both
+/// logarithmic: off by up to 29 %, rms 13 %.
 /// Edges: n.l = n.v = 0 gives 5e35. Error in f32: <= 6 ulp.
+///
+/// ```
+/// use halfvector_brdf::{ggx::v_smith_ggx_correlated, visibility::v_hammon};
+/// assert!((v_hammon(0.6, 0.3, 0.8, 1.0) - v_smith_ggx_correlated(0.6, 0.3, 0.8, 1.0_f64)).abs() < 1e-15);
+/// ```
 #[inline]
 pub fn v_hammon<R: Real>(n_dot_v: R, n_dot_l: R, _l_dot_h: R, alpha: R) -> R {
     let smooth = R::of(2.0) * n_dot_l * n_dot_v * (R::ONE - alpha);
@@ -25,7 +30,8 @@ pub fn v_hammon<R: Real>(n_dot_v: R, n_dot_l: R, _l_dot_h: R, alpha: R) -> R {
 /// Karis 2013, Real Shading in Unreal Engine 4, for punctual lights: k = (perceptual_roughness + 1)^2 / 8.
 ///
 /// perceptual_roughness = sqrt(alpha). k is at least 1/8, so that V <= 16: smooth surfaces come out far too dark at grazing
-/// angles, which is what the form was remapped for. Edges: none. Error in f32: <= 6 ulp.
+/// angles, which is what the form was remapped for. Against `v_smith_ggx_correlated`, on the points of [`v_hammon`]: V up to
+/// 99.5 % too small, rms 76 %. Edges: none. Error in f32: <= 10 ulp.
 #[inline]
 pub fn v_schlick_smith<R: Real>(n_dot_v: R, n_dot_l: R, _l_dot_h: R, alpha: R) -> R {
     let r = alpha.sqrt() + R::ONE;

@@ -2,13 +2,20 @@
 //! documented domain. The figures in the functions' documentation are these bounds.
 
 use halfvector_brdf::Scalar;
+use halfvector_brdf::anisotropic::{d_ggx_anisotropic, v_smith_ggx_anisotropic};
+use halfvector_brdf::beckmann::{v_smith_beckmann_correlated, v_smith_beckmann_separable};
 use halfvector_brdf::dfg::dfg_karis;
-use halfvector_brdf::diffuse::diffuse_burley;
-use halfvector_brdf::fresnel::{f_dielectric, f_exact, f_schlick, f0_from_ior};
+use halfvector_brdf::diffuse::{
+    average_albedo_fon, diffuse_burley, directional_albedo_eon, directional_albedo_fon, directional_albedo_fon_exact,
+};
+use halfvector_brdf::fresnel::{f_conductor, f_dielectric, f_exact, f_f82_tint, f_schlick, f0_from_ior, ior_from_f0};
 use halfvector_brdf::ggx::{alpha_from_perceptual_roughness, d_ggx, v_smith_ggx_correlated, v_smith_ggx_separable};
 use halfvector_brdf::math::{normalize_or, pow5};
 use halfvector_brdf::multiscatter::energy_compensation;
 use halfvector_brdf::sampling::{g1_smith_ggx, pdf_solid_angle_ggx_vndf};
+use halfvector_brdf::sheen::v_neubelt;
+use halfvector_brdf::thin_film::f_thin_film;
+use halfvector_brdf::visibility::{v_cook_torrance, v_hammon, v_kelemen, v_schlick_smith};
 
 /// A function of four numbers in [0, 1), in both types.
 struct Case {
@@ -94,6 +101,51 @@ fn cases() -> Vec<Case> {
         )[0]),
         case!("dfg_karis a", 4.0, 1.0, |u| dfg_karis(cosine(u[0]), roughness(u[1]))[0]),
         case!("dfg_karis b", 4.0, 1.0, |u| dfg_karis(cosine(u[0]), roughness(u[1]))[1]),
+        case!("d_ggx_anisotropic", 12.0, 0.0, |u| {
+            let (x, y) = (cosine::<R>(u[0]), cosine::<R>(u[1]));
+            d_ggx_anisotropic([x * R::of(0.5), y * R::of(0.5), R::of(0.75)], alpha_of(u[2]), alpha_of(u[3]))
+        }),
+        case!("v_smith_ggx_anisotropic", 6.0, 0.0, |u| {
+            let (view, light) =
+                ([cosine(u[0]), cosine(u[3]), cosine(u[1])], [cosine(u[1]), cosine(u[0]), cosine(u[3])]);
+            v_smith_ggx_anisotropic(view, light, alpha_of(u[2]), alpha_of(u[3]))
+        }),
+        case!("v_smith_beckmann_correlated", 10.0, 0.0, |u| {
+            v_smith_beckmann_correlated(cosine(u[0]), cosine(u[1]), R::ZERO, alpha_of(u[2]))
+        }),
+        case!("v_smith_beckmann_separable", 10.0, 0.0, |u| {
+            v_smith_beckmann_separable(cosine(u[0]), cosine(u[1]), R::ZERO, alpha_of(u[2]))
+        }),
+        case!("v_hammon", 6.0, 0.0, |u| v_hammon(cosine(u[0]), cosine(u[1]), R::ZERO, alpha_of(u[2]))),
+        case!("v_schlick_smith", 10.0, 0.0, |u| v_schlick_smith(cosine(u[0]), cosine(u[1]), R::ZERO, alpha_of(u[2]))),
+        case!("v_cook_torrance", 6.0, 0.0, |u| v_cook_torrance(cosine(u[0]), cosine(u[1]), cosine(u[2]), R::ONE)),
+        case!("v_kelemen", 3.0, 0.0, |u| v_kelemen(R::ONE, R::ONE, cosine(u[0]), R::ONE)),
+        case!("v_neubelt", 4.0, 0.0, |u| v_neubelt(cosine(u[0]), cosine(u[1]), R::ONE, R::ONE)),
+        case!("ior_from_f0", 6.0, 0.0, |u| ior_from_f0(unit(u[0]) * R::of(0.875))),
+        case!("f_f82_tint", 4.0, 1.0, |u| f_f82_tint([unit(u[0]); 3], [unit(u[1]); 3], cosine(u[2]))[0]),
+        case!("f_conductor", 16.0, 0.01, |u| {
+            f_conductor(unit(u[0]) * R::of(16.0) + R::of(0.0009765625), unit(u[1]) * R::of(16.0), cosine(u[2]))
+        }),
+        case!("average_albedo_fon", 3.0, 0.0, |u| average_albedo_fon(roughness(u[0]))),
+        case!("directional_albedo_fon", 6.0, 0.0, |u| directional_albedo_fon(cosine(u[0]), roughness(u[1]))),
+        case!("directional_albedo_fon_exact", 4.0, 0.0, |u| directional_albedo_fon_exact(
+            cosine(u[0]),
+            roughness(u[1])
+        )),
+        case!("directional_albedo_eon", 12.0, 0.0, |u| {
+            directional_albedo_eon([unit(u[0]); 3], cosine(u[1]), roughness(u[2]))[0]
+        }),
+        // In ulp of 1: 1e-5.
+        case!("f_thin_film", 168.0, 1.0, |u| {
+            let base = unit(u[2]) * R::of(4.0) + R::of(0.25);
+            f_thin_film(
+                unit(u[0]) * R::of(2.0) + R::ONE,
+                unit(u[1]) * R::of(1000.0),
+                [base; 3],
+                [base; 3],
+                cosine(u[3]),
+            )[1]
+        }),
         case!("energy_compensation", 2.0, 0.0, |u| energy_compensation(
             [unit(u[0]); 3],
             [R::ONE; 3],
