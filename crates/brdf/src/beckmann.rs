@@ -50,7 +50,8 @@ fn slope_and_cotangent<R: Real>(n_dot_w: R, alpha: R) -> (R, R) {
 /// Height-correlated Smith form, G = 1 / (1 + Lambda(v) + Lambda(l)) over 4 n.l n.v, with Walter's fit of Lambda:
 /// V = 1/4 / (n.l n.v + n.l (n.v Lambda(v)) + n.v (n.l Lambda(l))).
 ///
-/// Against [`v_smith_beckmann_exact`]: within 0.62 % (rms 0.17 %), cosines from 0.01 and alpha from 0.002. Edges: n.l = n.v = 0 gives 2.5e35. Error in f32: <= 10 ulp.
+/// Against [`v_smith_beckmann_exact`]: within 0.62 % (rms 0.17 %), cosines from 0.01 and alpha from 0.002.
+/// Edges: n.l = n.v = 0 gives 2.5e35. Error in f32: <= 10 ulp.
 #[inline]
 pub fn v_smith_beckmann_correlated<R: Real>(n_dot_v: R, n_dot_l: R, _l_dot_h: R, alpha: R) -> R {
     let masked = n_dot_l * masked_cosine(n_dot_v, alpha) + n_dot_v * masked_cosine(n_dot_l, alpha);

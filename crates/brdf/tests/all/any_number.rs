@@ -15,6 +15,9 @@ use halfvector_brdf::thin_film::f_thin_film;
 use halfvector_brdf::visibility::{v_cook_torrance, v_hammon, v_kelemen, v_schlick_smith};
 use proptest::prelude::*;
 
+type Visibility = fn(f32, f32, f32, f32) -> f32;
+type Diffuse = fn([f32; 3], f32, f32, f32, f32) -> [f32; 3];
+
 /// Every f32 from 0 to 1, each as likely as another: half of them below 1e-19, one in 127 a denormal number.
 fn unit() -> impl Strategy<Value = f32> {
     prop_oneof![
@@ -54,7 +57,7 @@ proptest! {
         good("d_ggx_anisotropic", &[d_ggx_anisotropic([0.6 * sin, 0.8 * sin, cos], alpha, width)])?;
         // Beckmann's cos^4 in the denominator needs the sine that belongs to it.
         good("d_beckmann", &[d_beckmann((1.0 - sin2).sqrt(), sin2, alpha), d_beckmann(sin2, 1.0 - sin2 * sin2, alpha)])?;
-        let forms: [(&str, fn(f32, f32, f32, f32) -> f32); 10] = [
+        let forms: [(&str, Visibility); 10] = [
             ("v_smith_ggx_correlated", v_smith_ggx_correlated),
             ("v_smith_ggx_separable", v_smith_ggx_separable),
             ("v_smith_beckmann_correlated", v_smith_beckmann_correlated),
@@ -90,7 +93,7 @@ proptest! {
 
     #[test]
     fn diffuse_forms(albedo in color(), n_dot_v in unit(), n_dot_l in unit(), l_dot_h in unit(), roughness in unit()) {
-        let forms: [(&str, fn([f32; 3], f32, f32, f32, f32) -> [f32; 3]); 6] = [
+        let forms: [(&str, Diffuse); 6] = [
             ("diffuse_lambert", diffuse_lambert),
             ("diffuse_burley", diffuse_burley),
             ("diffuse_oren_nayar", diffuse_oren_nayar),

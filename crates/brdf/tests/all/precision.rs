@@ -122,7 +122,7 @@ fn cases() -> Vec<Case> {
         case!("v_kelemen", 3.0, 0.0, |u| v_kelemen(R::ONE, R::ONE, cosine(u[0]), R::ONE)),
         case!("v_neubelt", 4.0, 0.0, |u| v_neubelt(cosine(u[0]), cosine(u[1]), R::ONE, R::ONE)),
         case!("ior_from_f0", 6.0, 0.0, |u| ior_from_f0(unit(u[0]) * R::of(0.875))),
-        case!("f_f82_tint", 4.0, 1.0, |u| f_f82_tint([unit(u[0]); 3], [unit(u[1]); 3], cosine(u[2]))[0]),
+        case!("f_f82_tint", 6.0, 1.0, |u| f_f82_tint([unit(u[0]); 3], [unit(u[1]); 3], cosine(u[2]))[0]),
         case!("f_conductor", 16.0, 0.01, |u| {
             f_conductor(unit(u[0]) * R::of(16.0) + R::of(0.0009765625), unit(u[1]) * R::of(16.0), cosine(u[2]))
         }),
