@@ -6,6 +6,7 @@ mod device;
 mod docs;
 mod golden;
 mod images;
+mod interp;
 mod methods;
 mod normal_tangent;
 mod relief;

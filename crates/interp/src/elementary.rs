@@ -72,7 +72,7 @@ pub(crate) fn log2(x: f64) -> f64 {
         polynomial(s * s, [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0]);
     let finite = exponent + 2.0 * LOG2_E * s * series;
     let at_end = choose(x == 0.0, f64::NEG_INFINITY, choose(x == f64::INFINITY, x, f64::NAN));
-    choose(x > 0.0 && x < f64::INFINITY, finite, at_end)
+    choose((x > 0.0) & (x < f64::INFINITY), finite, at_end)
 }
 
 #[inline(always)]
@@ -87,7 +87,7 @@ pub(crate) fn pow(x: f64, y: f64) -> f64 {
     let power = exp2(product);
     // Beyond the bounds of exp2 the result is 0 or infinite in f32 either way; NaN passes through the comparison.
     let power = choose(product.is_nan(), product, power);
-    choose(y == 0.0 && x >= 0.0, 1.0, choose(x == 1.0, choose(y.is_nan(), y, 1.0), power))
+    choose((y == 0.0) & (x >= 0.0), 1.0, choose(x == 1.0, choose(y.is_nan(), y, 1.0), power))
 }
 
 /// The remainder of x by pi/2 in [-pi/4, pi/4], and the quotient's two low bits; right for |x| up to 1e9.
@@ -186,7 +186,7 @@ pub(crate) fn atan2(y: f64, x: f64) -> f64 {
     let angle = atan_0_to_1(ratio);
     let angle = choose(steep, FRAC_PI_2 - angle, angle);
     let angle = choose(x.is_sign_negative(), PI - angle, angle);
-    choose(x.is_nan() || y.is_nan(), f64::NAN, angle.copysign(y))
+    choose(x.is_nan() | y.is_nan(), f64::NAN, angle.copysign(y))
 }
 
 #[inline(always)]

@@ -6,11 +6,15 @@
 
 mod bits;
 mod convert;
+mod dispatch;
 mod float;
 
-pub(crate) use bits::{BitsOp, bits_block, bits_one};
+use bits::bits_block;
+pub(crate) use bits::{BitsOp, bits_one};
 pub(crate) use convert::{Convert, float_from_bits, float_from_float, int_from_float, round_to_f32};
-pub(crate) use float::{CompareOp, FloatOp, compare_block, compare_one, float_block, float_one};
+pub(crate) use dispatch::{run_bits, run_compare, run_float, run_select};
+pub(crate) use float::{CompareOp, FloatOp, compare_one, float_one};
+use float::{compare_block, float_block};
 
 /// Invocations that run together.
 pub const LANES: usize = 128;
@@ -99,12 +103,7 @@ pub(crate) fn map3<A: Copy, B: Copy, C: Copy, R: Copy>(
 
 /// Picks by mask: `accept` where it is set.
 #[inline(always)]
-pub(crate) fn select_block<T: Copy>(
-    out: &mut Block<T>,
-    mask: Source<'_, u32>,
-    accept: Source<'_, T>,
-    reject: Source<'_, T>,
-) {
+fn select_block<T: Copy>(mask: Source<'_, u32>, accept: Source<'_, T>, reject: Source<'_, T>, out: &mut Block<T>) {
     match (mask, accept, reject) {
         (Source::Each(mask), Source::Each(accept), Source::Each(reject)) => {
             for i in 0..LANES {
@@ -156,10 +155,10 @@ macro_rules! operations {
         #[inline(always)]
         pub(crate) fn $block$(<$t: $bound>)?(
             op: $name,
-            out: &mut $crate::kernel::Block<$t>,
             a: $crate::kernel::Source<'_, $t>,
             b: $crate::kernel::Source<'_, $t>,
             c: $crate::kernel::Source<'_, $t>,
+            out: &mut $crate::kernel::Block<$t>,
         ) {
             match op {
                 $($name::$u => $crate::kernel::map1(out, a, #[inline(always)] |$ua| $ue),)*

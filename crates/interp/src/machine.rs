@@ -322,6 +322,12 @@ fn add(to: &mut Block<u32>, from: &Block<u32>) {
 fn spread_out<T: Copy>(block: &mut Block<T>, all: &[T], first: usize, spread: usize, f: impl Fn(T) -> T) {
     match all {
         [one] => block.fill(f(*one)),
+        // A whole batch in order: one copy.
+        _ if spread == 1 && first + LANES <= all.len() => {
+            for (to, from) in block.iter_mut().zip(&all[first..]) {
+                *to = f(*from);
+            }
+        }
         _ => {
             let last = all.len() - 1;
             for (lane, to) in block.iter_mut().enumerate() {
@@ -332,7 +338,10 @@ fn spread_out<T: Copy>(block: &mut Block<T>, all: &[T], first: usize, spread: us
 }
 
 fn take<T: Copy>(all: &mut Vec<T>, source: Source<'_, T>, count: usize, spread: usize, f: impl Fn(T) -> T) {
-    all.extend((0..count).map(|i| f(source.lane(i * spread))));
+    match source {
+        Source::Each(block) => all.extend(block.iter().step_by(spread).take(count).map(|x| f(*x))),
+        Source::Same(x) => all.extend(std::iter::repeat_n(f(x), count)),
+    }
 }
 
 fn check_columns<F>(slots: &[Slot], columns: &[Column<'_, F>], lanes: usize) -> Result<(), RunError> {

@@ -72,7 +72,7 @@ pub(crate) fn library() -> Module {
 }
 
 /// The function and all that it refers to, directly or not, as text, but for what the prelude defines.
-fn sliced(function: &str, prelude: &str) -> String {
+pub(crate) fn sliced(function: &str, prelude: &str) -> String {
     let items: Vec<(&File, Item)> = library_files()
         .flat_map(|f| slice(f.source).unwrap_or_else(|e| panic!("{}: {e}", f.path)).into_iter().map(move |i| (f, i)))
         .collect();
@@ -201,7 +201,8 @@ impl Gpu {
         Results { values, arguments: call.arguments, results: call.results }
     }
 
-    fn run(&self, source: &str, input: &[u8], output_bytes: u64, rows: usize) -> Vec<u8> {
+    /// Runs the entry point `call` of a shader with `input` at binding 0, `rows` times, and returns the bytes at binding 1.
+    pub(crate) fn run(&self, source: &str, input: &[u8], output_bytes: u64, rows: usize) -> Vec<u8> {
         let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: None,
             source: wgpu::ShaderSource::Wgsl(source.into()),

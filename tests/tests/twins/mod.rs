@@ -3,10 +3,10 @@
 
 mod brdf_hard_cases;
 mod domain;
-mod gpu;
+pub(crate) mod gpu;
 mod hard_cases;
 mod signatures;
-mod table;
+pub(crate) mod table;
 mod texel;
 mod truth;
 
@@ -60,7 +60,7 @@ fn the_table_is_complete() {
 }
 
 /// The arguments of all calls of a twin, row after row.
-fn arguments(twin: &Twin) -> Vec<f32> {
+pub(crate) fn arguments(twin: &Twin) -> Vec<f32> {
     let mut numbers = Numbers::new(twin.name);
     let mut all = Vec::new();
     for _ in 0..ROWS {
@@ -73,7 +73,7 @@ fn arguments(twin: &Twin) -> Vec<f32> {
 
 /// Distance of two numbers in units of `unit` times the size of the second, or of `floor` where that is more; two equal
 /// numbers (0 and 0 among them) are no distance apart, and NaN is infinitely far.
-fn distance(value: f64, truth: f64, floor: f64, unit: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn distance(value: f64, truth: f64, floor: f64, unit: impl Fn(f64) -> f64) -> f64 {
     if value == truth {
         return 0.0;
     }
@@ -82,7 +82,7 @@ fn distance(value: f64, truth: f64, floor: f64, unit: impl Fn(f64) -> f64) -> f6
 }
 
 /// Unit in the last place of an f32 of this size.
-fn ulp(size: f64) -> f64 {
+pub(crate) fn ulp(size: f64) -> f64 {
     let size = size.max(f64::from(f32::MIN_POSITIVE)) as f32;
     f64::from(f32::from_bits(size.to_bits() + 1)) - f64::from(size)
 }

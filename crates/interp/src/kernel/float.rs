@@ -85,15 +85,15 @@ pub(crate) fn float_one<T: Float>(op: FloatOp, a: T, b: T, c: T) -> T {
 #[inline(always)]
 pub(crate) fn float_block<T: Float>(
     op: FloatOp,
-    out: &mut Block<T>,
     a: Source<'_, T>,
     b: Source<'_, T>,
     c: Source<'_, T>,
+    out: &mut Block<T>,
 ) {
     if has_period(op) && (0..LANES).any(|i| wild(a.lane(i))) {
         return map1(out, a, |x| if wild(x) { turn_wild(op, x) } else { plain_one(op, x, x, x) });
     }
-    plain_block(op, out, a, b, c);
+    plain_block(op, a, b, c, out);
 }
 
 /// Float operands, a mask as the result: all bits set for true.
@@ -124,7 +124,7 @@ pub(crate) fn compare_one<T: Float>(op: CompareOp, a: T, b: T) -> u32 {
 }
 
 #[inline(always)]
-pub(crate) fn compare_block<T: Float>(op: CompareOp, out: &mut Block<u32>, a: Source<'_, T>, b: Source<'_, T>) {
+pub(crate) fn compare_block<T: Float>(op: CompareOp, a: Source<'_, T>, b: Source<'_, T>, out: &mut Block<u32>) {
     match op {
         CompareOp::Equal => map2(out, a, b, |a, b| mask(a == b)),
         CompareOp::NotEqual => map2(out, a, b, |a, b| mask(a != b)),

@@ -5,8 +5,8 @@ use super::{Bound, Machine};
 use crate::code::Step;
 use crate::ir::{BufferRead, Class, Op};
 use crate::kernel::{
-    BitsOp, CompareOp, Convert, FloatOp, LANES, Source, bits_block, bits_one, compare_block, compare_one, float_block,
-    float_from_bits, float_from_float, float_one, int_from_float, map1, map2, round_to_f32, select_block,
+    BitsOp, CompareOp, Convert, FloatOp, LANES, Source, bits_one, compare_one, float_from_bits, float_from_float,
+    float_one, int_from_float, map1, map2, round_to_f32, run_bits, run_compare, run_float, run_select,
 };
 use crate::real::Float;
 use crate::real::sealed::Arithmetic as _;
@@ -150,10 +150,7 @@ fn float<T: Float>(arch: pulp::Arch, file: &mut File<T>, op: FloatOp, step: &Ste
     }
     let File { blocks, same, scratch } = file;
     let (a, b, c) = (source(blocks, same, step.a), source(blocks, same, step.b), source(blocks, same, step.c));
-    arch.dispatch(
-        #[inline(always)]
-        || float_block(op, scratch, a, b, c),
-    );
+    run_float(arch, scratch, op, a, b, c);
     file.commit(step.dst);
 }
 
@@ -164,10 +161,7 @@ fn bits(arch: pulp::Arch, file: &mut File<u32>, op: BitsOp, step: &Step) {
     }
     let File { blocks, same, scratch } = file;
     let (a, b, c) = (source(blocks, same, step.a), source(blocks, same, step.b), source(blocks, same, step.c));
-    arch.dispatch(
-        #[inline(always)]
-        || bits_block(op, scratch, a, b, c),
-    );
+    run_bits(arch, scratch, op, [a, b, c]);
     file.commit(step.dst);
 }
 
@@ -178,10 +172,7 @@ fn compare<T: Float>(arch: pulp::Arch, file: &File<T>, words: &mut File<u32>, op
     }
     let (a, b) = (file.source(step.a), file.source(step.b));
     let scratch = &mut words.scratch;
-    arch.dispatch(
-        #[inline(always)]
-        || compare_block(op, scratch, a, b),
-    );
+    run_compare(arch, scratch, op, a, b);
     words.commit(step.dst);
 }
 
@@ -193,10 +184,7 @@ fn select<T: Float>(arch: pulp::Arch, file: &mut File<T>, words: &File<u32>, ste
     }
     let File { blocks, same, scratch } = file;
     let (accept, reject) = (source(blocks, same, step.b), source(blocks, same, step.c));
-    arch.dispatch(
-        #[inline(always)]
-        || select_block(scratch, mask, accept, reject),
-    );
+    run_select(arch, scratch, mask, accept, reject);
     file.commit(step.dst);
 }
 
@@ -209,10 +197,7 @@ fn select_words(arch: pulp::Arch, words: &mut File<u32>, step: &Step) {
     let File { blocks, same, scratch } = words;
     let (mask, accept, reject) =
         (source(blocks, same, step.a), source(blocks, same, step.b), source(blocks, same, step.c));
-    arch.dispatch(
-        #[inline(always)]
-        || select_block(scratch, mask, accept, reject),
-    );
+    run_select(arch, scratch, mask, accept, reject);
     words.commit(step.dst);
 }
 
