@@ -254,33 +254,33 @@ pub(crate) const TWINS: &[Twin] = &[
         let light = SpotLight { position: v(x, 0), intensity: v(x, 3), direction: v(x, 6), cos_scale_offset: v(x, 9) };
         sample(spot_light_sample(light, v(x, 11)))
     }),
-    twin!("maps/blend.wgsl" "blend_linear", [UnitUp, UnitUp], 16.0, 1.0, DOUBLE, |x| blend::blend_linear(v(x, 0), v(x, 3))),
-    twin!("maps/blend.wgsl" "blend_partial_derivatives", [UnitUp, UnitUp], 64.0, 1.0, DOUBLE, |x| blend::blend_partial_derivatives(v(x, 0), v(x, 3))),
-    twin!("maps/blend.wgsl" "blend_rnm", [UnitUp, Unit], 32.0, 1.0, DOUBLE, |x| blend::blend_rnm(v(x, 0), v(x, 3))),
-    twin!("maps/blend.wgsl" "blend_udn", [UnitUp, UnitUp], 64.0, 1.0, DOUBLE, |x| blend::blend_udn(v(x, 0), v(x, 3))),
-    twin!("maps/blend.wgsl" "blend_whiteout", [UnitUp, UnitUp], 64.0, 1.0, DOUBLE, |x| blend::blend_whiteout(v(x, 0), v(x, 3))),
-    twin!("maps/blend.wgsl" "normal_with_strength", [UnitUp, Range(-2.0, 2.0)], 16.0, 1.0, DOUBLE, |x| blend::normal_with_strength(v(x, 0), x[3])),
+    twin!("maps/blend.wgsl" "blend_linear", [UnitUp, UnitUp], 8.0, 1.0, DOUBLE, |x| blend::blend_linear(v(x, 0), v(x, 3))),
+    twin!("maps/blend.wgsl" "blend_partial_derivatives", [UnitUp, UnitUp], 8.0, 1.0, DOUBLE, |x| blend::blend_partial_derivatives(v(x, 0), v(x, 3))),
+    twin!("maps/blend.wgsl" "blend_rnm", [UnitUp, Unit], 8.0, 1.0, DOUBLE, |x| blend::blend_rnm(v(x, 0), v(x, 3))),
+    twin!("maps/blend.wgsl" "blend_udn", [UnitUp, UnitUp], 8.0, 1.0, DOUBLE, |x| blend::blend_udn(v(x, 0), v(x, 3))),
+    twin!("maps/blend.wgsl" "blend_whiteout", [UnitUp, UnitUp], 8.0, 1.0, DOUBLE, |x| blend::blend_whiteout(v(x, 0), v(x, 3))),
+    twin!("maps/blend.wgsl" "normal_with_strength", [UnitUp, Range(-2.0, 2.0)], 8.0, 1.0, DOUBLE, |x| blend::normal_with_strength(v(x, 0), x[3])),
     twin!("maps/blend.wgsl" "texel_from_normal", [Unit], 1.0, 0.0, DOUBLE, |x| blend::texel_from_normal(v(x, 0))),
     twin!("maps/derivative.wgsl" "normal_from_slopes", [Range(-4.0, 4.0), Range(-4.0, 4.0)], 8.0, 1.0, DOUBLE, |x| derivative::normal_from_slopes(x[0], x[1])),
-    twin!("maps/derivative.wgsl" "normal_tbn_derivative", [UnitUp, Footprint, UvFootprint], 64.0, 1.0, DOUBLE, |x| {
+    twin!("maps/derivative.wgsl" "normal_tbn_derivative", [UnitUp, Footprint, UvFootprint], 8.0, 1.0, DOUBLE, |x| {
         derivative::normal_tbn_derivative(v(x, 0), v(x, 3), v(x, 6), v(x, 9), v(x, 12), v(x, 14))
     }),
-    twin!("maps/derivative.wgsl" "tangent_from_derivatives", [Footprint, UvFootprint], 64.0, 1.0, DOUBLE, |x| {
+    twin!("maps/derivative.wgsl" "tangent_from_derivatives", [Footprint, UvFootprint], 8.0, 1.0, DOUBLE, |x| {
         derivative::tangent_from_derivatives(v(x, 0), v(x, 3), v(x, 6), v(x, 9), v(x, 11))
     }),
     twin!("maps/height.wgsl" "displaced", [Point(10.0), Unit, Range(-1.0, 1.0)], 2.0, 1.0, DOUBLE, |x| height::displaced(v(x, 0), v(x, 3), x[6])),
-    twin!("maps/height.wgsl" "normal_from_height", [Footprint, Range(-0.01, 0.01), Range(-0.01, 0.01)], 32.0, 1.0, DOUBLE, |x| {
+    twin!("maps/height.wgsl" "normal_from_height", [Footprint, Range(-0.01, 0.01), Range(-0.01, 0.01)], 8.0, 1.0, DOUBLE, |x| {
         height::normal_from_height(v(x, 0), v(x, 3), v(x, 6), x[9], x[10])
     }),
     twin!("maps/normal.wgsl" "normal_from_texel", [Color(0.0, 1.0), Range(0.0, 2.0), Bool], 8.0, 1.0, DOUBLE, |x| normal::normal_from_texel(v(x, 0), x[3], x[4] != 0.0)),
-    twin!("maps/normal.wgsl" "normal_rotation_fixed", [Unit, Vector], 16.0, 1.0, DOUBLE, |x| normal::normal_rotation_fixed(v(x, 0), v(x, 3))),
-    twin!("maps/normal.wgsl" "normal_rotation_report", [Unit, Vector], 16.0, 1.0, DOUBLE, |x| normal::normal_rotation_report(v(x, 0), v(x, 3))),
-    twin!("maps/normal.wgsl" "normal_tbn", [UnitUp, Unit, TangentOfLast], 32.0, 1.0, DOUBLE, |x| normal::normal_tbn(v(x, 0), v(x, 3), v(x, 6))),
+    twin!("maps/normal.wgsl" "normal_rotation_fixed", [Unit, Vector], 8.0, 1.0, DOUBLE, |x| normal::normal_rotation_fixed(v(x, 0), v(x, 3))),
+    twin!("maps/normal.wgsl" "normal_rotation_report", [Unit, Vector], 8.0, 1.0, DOUBLE, |x| normal::normal_rotation_report(v(x, 0), v(x, 3))),
+    twin!("maps/normal.wgsl" "normal_tbn", [UnitUp, Unit, TangentOfLast], 8.0, 1.0, DOUBLE, |x| normal::normal_tbn(v(x, 0), v(x, 3), v(x, 6))),
     twin!("maps/normal.wgsl" "tangent_from_normal", [Unit], 8.0, 1.0, DOUBLE, |x| normal::tangent_from_normal(v(x, 0))),
     twin!("maps/octahedral.wgsl" "direction_from_octahedral", [Pair(-1.0, 1.0)], 8.0, 1.0, DOUBLE, |x| octahedral::direction_from_octahedral(v(x, 0))),
     twin!("maps/octahedral.wgsl" "octahedral_from_direction", [Unit], 8.0, 1.0, DOUBLE, |x| octahedral::octahedral_from_direction(v(x, 0))),
     // At grazing incidence the way is 20 times the depth, and the cosine that it is divided by a difference.
-    twin!("maps/parallax.wgsl" "parallax_offset", [Unit, Unit, TangentOfLast, Range(0.0, 0.2)], 128.0, 4.0, DOUBLE, |x| parallax::parallax_offset(v(x, 0), v(x, 3), v(x, 6), x[10])),
+    twin!("maps/parallax.wgsl" "parallax_offset", [Unit, Unit, TangentOfLast, Range(0.0, 0.2)], 16.0, 4.0, DOUBLE, |x| parallax::parallax_offset(v(x, 0), v(x, 3), v(x, 6), x[10])),
     // A texel whose three codes are near 128 has a direction of rounding noise: blue well above it here.
     twin!("maps/texel.wgsl" "normal_from_texel_snorm", [Pair(0.0, 1.0), Range(0.7, 1.0), Range(0.0, 2.0), Bool], 16.0, 1.0, DOUBLE, |x| texel::normal_from_texel_snorm(v(x, 0), x[3], x[4] != 0.0)),
     // Near the rim of the unit circle z is the root of what rounding leaves: inside of it here, the rim in the tests of maps.
