@@ -4,23 +4,6 @@
 use super::domain::Numbers;
 use super::gpu::{Gpu, Number, library};
 
-/// A row: its name in the catalogue, the function that answers it, its arguments, and whether the answer is right.
-struct Row {
-    name: &'static str,
-    function: &'static str,
-    arguments: &'static [f32],
-    is_right: fn(&[f64]) -> bool,
-}
-
-const fn row(
-    name: &'static str,
-    function: &'static str,
-    arguments: &'static [f32],
-    is_right: fn(&[f64]) -> bool,
-) -> Row {
-    Row { name, function, arguments, is_right }
-}
-
 fn degrees(a: &[f64], b: [f64; 3]) -> f64 {
     let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
     let lengths = a[..3].iter().map(|a| a * a).sum::<f64>() * b.iter().map(|b| b * b).sum::<f64>();
@@ -44,58 +27,109 @@ fn is_tangent_of(a: &[f64], normal: [f64; 3]) -> bool {
     is_unit(a) && a.iter().zip(normal).map(|(a, n)| a * n).sum::<f64>().abs() < 1e-5
 }
 
-#[rustfmt::skip]
-const ROWS: &[Row] = &[
-    row("degenerate UV", "tangent_from_derivatives", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0], |a| a[..3] == [0.0; 3]),
-    row("degenerate UV", "normal_tbn_derivative", &[0.6, 0.0, 0.8, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0], keeps_tilt),
-    row("near-degenerate UV", "tangent_from_derivatives", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 7.071e-7, 0.0, 0.0, -7.071e-7], |a| is_near(a, [1.0, 0.0, 0.0]) && a[3] == 1.0),
-    row("mirrored UV", "normal_tbn", &[0.0, 0.6, 0.8, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, -1.0], |a| is_near(a, [0.0, -0.6, 0.8])),
-    row("mirrored UV", "tangent_from_derivatives", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, -1.0], |a| is_near(a, [-1.0, 0.0, 0.0]) && a[3] == -1.0),
-    row("tangent || normal", "normal_tbn", &[0.6, 0.0, 0.8, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0], keeps_tilt),
-    row("tangent || normal", "normal_tbn", &[0.6, 0.0, 0.8, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], keeps_tilt),
-    row("Frisvad basis", "tangent_from_normal", &[0.0, 0.0, -1.0], |a| is_tangent_of(a, [0.0, 0.0, -1.0])),
-    row("Frisvad basis", "tangent_from_normal", &[0.000_488_3, 0.0, -0.999_999_9], |a| is_tangent_of(a, [0.000_488_3, 0.0, -0.999_999_9])),
-    row("Frisvad basis", "tangent_from_normal", &[0.000_345_3, 0.0, -0.999_999_94], |a| is_tangent_of(a, [0.000_345_3, 0.0, -0.999_999_94])),
-    row("normal texel zero", "normal_from_texel", &[0.5, 0.5, 0.5, 1.0, 0.0], |a| *a == [0.0, 0.0, 1.0]),
-    row("normal texel 8-bit flat", "normal_from_texel", &[128.0 / 255.0, 128.0 / 255.0, 1.0, 1.0, 0.0], |a| is_unit(a) && (degrees(a, [0.0, 0.0, 1.0]) - 0.3178).abs() < 0.005),
-    // ax = az = atan(.6 / 0), ay = atan(.4 / 0): half turns by halves, (0, 0, 1) -> (0, -1, 0) -> (0, -1, 0) -> (1, 0, 0).
-    row("normal z=0 rotation", "normal_rotation_report", &[0.4, 0.6, 0.0, 0.0, 0.0, 1.0], |a| is_near(a, [1.0, 0.0, 0.0])),
-    row("normal z=0 rotation", "normal_rotation_report", &[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.0, 0.0, 1.0])),
-    row("normal z=0 rotation", "normal_rotation_fixed", &[0.0, 0.6, 0.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.0, 1.0, 0.0])),
-    row("normal z=0 rotation", "normal_tbn", &[0.6, 0.8, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.6, 0.8, 0.0])),
-    // The report's atan loses the quadrant, the mended one keeps it.
-    row("normal z<0 rotation", "normal_rotation_report", &[0.3, 0.4, -0.5, 0.0, 0.0, 1.0], |a| is_unit(a) && a[2] > 0.0),
-    row("normal z<0 rotation", "normal_rotation_fixed", &[0.3, 0.4, -0.5, 0.0, 0.0, 1.0], |a| is_unit(a) && a[2] < 0.0),
-    row("rotation method accuracy", "normal_rotation_fixed", &[0.6, 0.6, 0.529_150_25, 0.0, 0.0, 1.0], |a| is_near(a, [0.496_078_37, 0.75, 0.4375]) && (degrees(a, [0.6, 0.6, 0.529_150_25]) - 11.72).abs() < 0.01),
-    row("rotation method accuracy", "normal_tbn", &[0.6, 0.6, 0.529_150_25, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.6, 0.6, 0.529_150_25])),
-    row("non-unit interpolated n", "normal_tbn", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.707_106_77, 1.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.0, 0.0, 1.0])),
-    row("opposed interpolated n", "normal_tbn", &[0.6, 0.0, 0.8, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0], keeps_tilt),
-    row("opposed interpolated n", "normal_rotation_report", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], |a| is_near(a, [0.0, 0.0, 1.0])),
-    row("opposed interpolated n", "normal_rotation_fixed", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], |a| is_near(a, [0.0, 0.0, 1.0])),
-];
+/// A call: a function of the library, its arguments, and whether its answer is right.
+type Call = (&'static str, &'static [f32], fn(&[f64]) -> bool);
 
-fn check<N: Number>(gpu: &Gpu) {
+fn check<N: Number>(gpu: &Gpu, calls: &[Call]) {
     let module = library();
-    for row in ROWS {
-        let answer = gpu.call::<N>(&module, row.function, row.arguments).values;
-        assert!((row.is_right)(&answer), "{}: {} in {} bits: {answer:?}", row.name, row.function, 8 * size_of::<N>());
+    for (function, arguments, is_right) in calls {
+        let answer = gpu.call::<N>(&module, function, arguments).values;
+        assert!(is_right(&answer), "{function} of {arguments:?} in {} bits: {answer:?}", 8 * size_of::<N>());
     }
 }
 
-#[test]
-fn rows_about_normals_in_f32() {
-    let Some(gpu) = Gpu::open() else { return };
-    check::<f32>(&gpu);
+/// A test for each row of the catalogue, in f32 and, where the GPU has it, in f64.
+macro_rules! rows {
+    ($($(#[doc = $row:literal])* $name:ident [$($call:expr),* $(,)?])*) => {$(
+        $(#[doc = $row])*
+        #[test]
+        fn $name() {
+            let Some(gpu) = Gpu::open() else { return };
+            let calls: &[Call] = &[$($call),*];
+            check::<f32>(&gpu, calls);
+            if gpu.has_f64 {
+                check::<f64>(&gpu, calls);
+            } else {
+                println!("{} has no f64", gpu.name);
+            }
+        }
+    )*};
 }
 
-#[test]
-fn rows_about_normals_in_f64() {
-    let Some(gpu) = Gpu::open() else { return };
-    if !gpu.has_f64 {
-        println!("skipped: {} has no f64", gpu.name);
-        return;
-    }
-    check::<f64>(&gpu);
+rows! {
+    /// Row "degenerate UV".
+    degenerate_uv [
+        ("tangent_from_derivatives", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0], |a| a[..3] == [0.0; 3]),
+        ("normal_tbn_derivative", &[0.6, 0.0, 0.8, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0], keeps_tilt),
+    ]
+
+    /// Row "near-degenerate UV".
+    near_degenerate_uv [
+        ("tangent_from_derivatives", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 7.071e-7, 0.0, 0.0, -7.071e-7], |a| is_near(a, [1.0, 0.0, 0.0]) && a[3] == 1.0),
+    ]
+
+    /// Row "mirrored UV".
+    mirrored_uv [
+        ("normal_tbn", &[0.0, 0.6, 0.8, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, -1.0], |a| is_near(a, [0.0, -0.6, 0.8])),
+        ("tangent_from_derivatives", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, -1.0], |a| is_near(a, [-1.0, 0.0, 0.0]) && a[3] == -1.0),
+    ]
+
+    /// Row "tangent || normal".
+    tangent_along_normal [
+        ("normal_tbn", &[0.6, 0.0, 0.8, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0], keeps_tilt),
+        ("normal_tbn", &[0.6, 0.0, 0.8, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], keeps_tilt),
+    ]
+
+    /// Row "Frisvad basis".
+    frisvad_basis [
+        ("tangent_from_normal", &[0.0, 0.0, -1.0], |a| is_tangent_of(a, [0.0, 0.0, -1.0])),
+        ("tangent_from_normal", &[0.000_488_3, 0.0, -0.999_999_9], |a| is_tangent_of(a, [0.000_488_3, 0.0, -0.999_999_9])),
+        ("tangent_from_normal", &[0.000_345_3, 0.0, -0.999_999_94], |a| is_tangent_of(a, [0.000_345_3, 0.0, -0.999_999_94])),
+    ]
+
+    /// Row "normal texel zero".
+    normal_texel_zero [
+        ("normal_from_texel", &[0.5, 0.5, 0.5, 1.0, 0.0], |a| *a == [0.0, 0.0, 1.0]),
+    ]
+
+    /// Row "normal texel 8-bit flat".
+    normal_texel_8_bit_flat [
+        ("normal_from_texel", &[128.0 / 255.0, 128.0 / 255.0, 1.0, 1.0, 0.0], |a| is_unit(a) && (degrees(a, [0.0, 0.0, 1.0]) - 0.3178).abs() < 0.005),
+    ]
+
+    /// Row "normal z=0 rotation".
+    normal_z_0_rotation [
+        // ax = az = atan(.6 / 0), ay = atan(.4 / 0): half turns by halves, (0, 0, 1) -> (0, -1, 0) -> (0, -1, 0) -> (1, 0, 0).
+        ("normal_rotation_report", &[0.4, 0.6, 0.0, 0.0, 0.0, 1.0], |a| is_near(a, [1.0, 0.0, 0.0])),
+        ("normal_rotation_report", &[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.0, 0.0, 1.0])),
+        ("normal_rotation_fixed", &[0.0, 0.6, 0.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.0, 1.0, 0.0])),
+        ("normal_tbn", &[0.6, 0.8, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.6, 0.8, 0.0])),
+    ]
+
+    /// Row "normal z<0 rotation".
+    normal_z_below_0_rotation [
+        // The report's atan loses the quadrant, the mended one keeps it.
+        ("normal_rotation_report", &[0.3, 0.4, -0.5, 0.0, 0.0, 1.0], |a| is_unit(a) && a[2] > 0.0),
+        ("normal_rotation_fixed", &[0.3, 0.4, -0.5, 0.0, 0.0, 1.0], |a| is_unit(a) && a[2] < 0.0),
+    ]
+
+    /// Row "rotation method accuracy".
+    rotation_method_accuracy [
+        ("normal_rotation_fixed", &[0.6, 0.6, 0.529_150_25, 0.0, 0.0, 1.0], |a| is_near(a, [0.496_078_37, 0.75, 0.4375]) && (degrees(a, [0.6, 0.6, 0.529_150_25]) - 11.72).abs() < 0.01),
+        ("normal_tbn", &[0.6, 0.6, 0.529_150_25, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.6, 0.6, 0.529_150_25])),
+    ]
+
+    /// Row "non-unit interpolated n".
+    non_unit_interpolated_n [
+        ("normal_tbn", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.707_106_77, 1.0, 0.0, 0.0, 1.0], |a| is_near(a, [0.0, 0.0, 1.0])),
+    ]
+
+    /// Row "opposed interpolated n".
+    opposed_interpolated_n [
+        ("normal_tbn", &[0.6, 0.0, 0.8, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0], keeps_tilt),
+        ("normal_rotation_report", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], |a| is_near(a, [0.0, 0.0, 1.0])),
+        ("normal_rotation_fixed", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], |a| is_near(a, [0.0, 0.0, 1.0])),
+    ]
 }
 
 /// Panics where a function's answer is not unit.
