@@ -97,6 +97,11 @@ rows! {
         ("normal_from_texel", &[128.0 / 255.0, 128.0 / 255.0, 1.0, 1.0, 0.0], |a| is_unit(a) && (degrees(a, [0.0, 0.0, 1.0]) - 0.3178).abs() < 0.005),
     ]
 
+    /// Row "BC5 z reconstruct".
+    bc5_z_reconstruct [
+        ("normal_from_texel_two_channel", &[0.9, 0.85, 0.3, 1.0, 0.0], |a| is_near(a, [0.752_577, 0.658_505, 0.0])),
+    ]
+
     /// Row "normal z=0 rotation".
     normal_z_0_rotation [
         // ax = az = atan(.6 / 0), ay = atan(.4 / 0): half turns by halves, (0, 0, 1) -> (0, -1, 0) -> (0, -1, 0) -> (1, 0, 0).
@@ -151,6 +156,8 @@ fn every_8_bit_texel_is_unit_on_the_gpu() {
     let colors = texels.map(|t| t.map(|c| c as f32 / 255.0));
     let arguments: Vec<f32> = colors.flat_map(|[r, g, b]| [r, g, b, 1.0, 0.0]).collect();
     let normals = all_unit(&gpu, &module, "normal_from_texel", &arguments);
+    all_unit(&gpu, &module, "normal_from_texel_snorm", &arguments);
+    all_unit(&gpu, &module, "normal_from_texel_two_channel", &arguments);
     let frames = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.267_261_24, -0.534_522_5, 0.801_783_7]];
     for function in ["normal_rotation_report", "normal_rotation_fixed", "normal_tbn"] {
         let tangent: &[f32] = if function == "normal_tbn" { &[0.6, 0.0, -0.8, -1.0] } else { &[] };
@@ -168,6 +175,8 @@ fn normals_of_any_bits_are_unit() {
     let special = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, -0.0, 1.0, -1.0, f32::MAX, f32::MIN, 1e-40, 0.5];
     let functions = [
         ("normal_from_texel", 5),
+        ("normal_from_texel_snorm", 5),
+        ("normal_from_texel_two_channel", 5),
         ("normal_tbn", 10),
         ("normal_rotation_report", 6),
         ("normal_rotation_fixed", 6),
