@@ -15,7 +15,7 @@ const TRANSFORM_FILE: &str = "entry/transform.wgsl";
 
 /// Terms whose methods are functions of one signature: the linker exchanges the names. The other terms are chosen where
 /// the shading is put together.
-const EXCHANGED_TERMS: [&str; 4] = ["d", "v", "fresnel", "diffuse"];
+const EXCHANGED_TERMS: [&str; 5] = ["d", "v", "fresnel", "diffuse", "normal_decode"];
 
 /// The items of a library by name, and what was found out about them.
 pub(crate) struct Index {

@@ -102,6 +102,16 @@ fn only_tbn_reads_tangents() {
 }
 
 #[test]
+fn normal_maps_are_read_as_the_scene_says() {
+    for (method, function) in [("snorm", "normal_from_texel_snorm("), ("two_channel", "normal_from_texel_two_channel(")]
+    {
+        let needs = Needs { methods: methods(&[("normal_decode", method)]), ..environment() };
+        let text = exported(&maps(), &needs).wgsl;
+        assert!(text.contains(function) && !text.contains("normal_from_texel("), "{text}");
+    }
+}
+
+#[test]
 fn methods_exchange_functions() {
     let document = material(r#""metallic": 0.5"#, "", "");
     let chosen =
