@@ -59,8 +59,7 @@ enum Piece {
 
 /// A function that naga has read, for folding.
 pub(crate) struct Compiled {
-    module: naga::Module,
-    function: naga::Handle<naga::Function>,
+    callable: Option<eval::Callable>,
     pub(crate) shape: Shape,
     /// Member names of the returned struct; empty for a plain value.
     pub(crate) members: Vec<String>,
@@ -68,7 +67,7 @@ pub(crate) struct Compiled {
 
 impl Compiled {
     pub(crate) fn evaluate(&self, arguments: &[eval::Number]) -> Option<eval::Value> {
-        eval::evaluate(&self.module, &self.module.functions[self.function], arguments)
+        self.callable.as_ref()?.call(arguments)
     }
 }
 
@@ -231,15 +230,15 @@ impl Index {
         }
         let module = naga::front::wgsl::parse_str(&source).ok()?;
         let name = self.name(instance);
-        let (function, body) = module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(&name))?;
+        let (_, body) = module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(&name))?;
         let members = match body.result.as_ref().map(|r| &module.types[r.ty].inner) {
             Some(naga::TypeInner::Struct { members, .. }) => {
                 members.iter().map(|m| m.name.clone().unwrap_or_default()).collect()
             }
             _ => Vec::new(),
         };
-        let shape = eval::shape(body);
-        Some(Compiled { shape, members, function, module })
+        let callable = eval::Callable::new(&module, body);
+        Some(Compiled { shape: eval::shape(body), members, callable })
     }
 
     /// Recognises `fn f(a: A, b: B) -> C { return <expression>; }` whose expression names nothing of the library.

@@ -11,7 +11,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("crates/ibl", &["brdf", "maps"]),
     ("crates/interp", &[]),
     ("crates/graph", &["shaders"]),
-    ("crates/codegen", &["graph", "shaders"]),
+    ("crates/codegen", &["graph", "interp", "shaders"]),
     ("crates/scene", &["graph", "maps", "ibl"]),
     ("crates/render", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
     ("crates/report", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),

@@ -1,12 +1,14 @@
-//! A small evaluator of library functions on constants, over naga's IR, in f32: straight-line bodies of built-in
-//! operators, no control flow, no calls, no textures. What it does not know it leaves alone, and the shader computes it.
+//! Calls of library functions on constants, run by the interpreter in f32. What it refuses, and what takes derivatives or
+//! too long, is left alone, and the shader computes it.
 
-use naga::{
-    Expression, Function, Handle, Literal as NagaLiteral, MathFunction, Module, ScalarKind, Statement, TypeInner,
-};
+use halfvector_interp::{Column, Derivatives, Entry, Limits, Outputs, Program, Resources};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::{Expression, Function, Handle, MathFunction, Module, Scalar, ScalarKind, Statement, TypeInner};
 
-/// A scalar or vector of one to four components. Integers and bools are exact in f64; floats are rounded to f32 after
-/// every operation (f64 carries more than twice the digits, so the rounding is that of f32 arithmetic).
+/// What folding one call may cost: a shader computes in an instant what needs more.
+const LIMITS: Limits = Limits { steps: 1 << 14, bytes: 1 << 22 };
+
+/// A scalar or vector of one to four components: f32, integers and bools are exact in f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Number {
     pub(crate) kind: Kind,
@@ -34,322 +36,103 @@ impl Number {
         let mut all = [0.0; 4];
         let len = components.len().min(4);
         all[..len].copy_from_slice(&components[..len]);
-        Number { kind, len, components: all }.rounded()
+        Number { kind, len, components: all }
     }
 
     pub(crate) fn components(&self) -> &[f64] {
         &self.components[..self.len]
     }
 
-    fn rounded(mut self) -> Number {
-        if self.kind == Kind::Float {
-            for c in &mut self.components {
-                *c = f64::from(*c as f32);
-            }
-        }
-        self
-    }
-
-    fn map(self, f: impl Fn(f64) -> f64) -> Number {
-        let mut result = self;
-        for c in &mut result.components[..self.len] {
-            *c = f(*c);
-        }
-        result.rounded()
-    }
-
-    fn zip(self, other: Number, kind: Kind, f: impl Fn(f64, f64) -> f64) -> Option<Number> {
-        let len = if self.len == other.len || other.len == 1 {
-            self.len
-        } else if self.len == 1 {
-            other.len
-        } else {
-            return None;
-        };
-        let mut components = [0.0; 4];
-        for (index, slot) in components.iter_mut().enumerate().take(len) {
-            *slot = f(self.components[index % self.len], other.components[index % other.len]);
-        }
-        Some(Number { kind, len, components }.rounded())
-    }
-
-    fn dot(self, other: Number) -> Option<f64> {
-        let products = self.zip(other, self.kind, |a, b| a * b)?;
-        Some(products.components().iter().fold(0.0, |sum, x| f64::from((sum + x) as f32)))
+    /// What the interpreter takes for a component.
+    fn word(&self, component: usize) -> u32 {
+        (self.components[component] as i32).cast_unsigned()
     }
 }
 
-/// The value of `function` of `module` for constant arguments; `None` where it does what this evaluator does not know.
-pub(crate) fn evaluate(module: &Module, function: &Function, arguments: &[Number]) -> Option<Value> {
-    let mut result = None;
-    for statement in function.body.iter() {
-        match statement {
-            Statement::Emit(_) => {}
-            Statement::Return { value: Some(value) } => result = Some(*value),
-            _ => return None,
-        }
-    }
-    let mut values: Vec<Option<Value>> = Vec::with_capacity(function.expressions.len());
-    // An expression uses only those before it: one loop, no recursion.
-    for (_, expression) in function.expressions.iter() {
-        let value = Evaluation { module, arguments, values: &values }.expression(expression);
-        values.push(value);
-    }
-    values.get(result?.index())?.clone()
+/// A function that can be called with constants.
+pub(crate) struct Callable {
+    program: Program,
+    /// Components of each argument.
+    arguments: Vec<(Kind, usize)>,
+    /// Kind and components of the result, or of its members.
+    results: Vec<(Kind, usize)>,
+    is_struct: bool,
 }
 
-struct Evaluation<'e> {
-    module: &'e Module,
-    arguments: &'e [Number],
-    values: &'e [Option<Value>],
-}
-
-impl Evaluation<'_> {
-    fn number(&self, handle: Handle<Expression>) -> Option<Number> {
-        match self.values.get(handle.index())?.as_ref()? {
-            Value::Number(number) => Some(*number),
-            Value::Struct(_) => None,
-        }
-    }
-
-    fn expression(&self, expression: &Expression) -> Option<Value> {
-        let number = match *expression {
-            Expression::FunctionArgument(index) => *self.arguments.get(index as usize)?,
-            Expression::Literal(literal) => from_literal(literal)?,
-            Expression::Constant(constant) => global(self.module, self.module.constants[constant].init)?,
-            Expression::ZeroValue(ty) => zero(&self.module.types[ty].inner)?,
-            Expression::Compose { ty, ref components } => {
-                return self.compose(&self.module.types[ty].inner, components);
-            }
-            Expression::Splat { size, value } => {
-                let scalar = self.number(value)?;
-                Number::new(scalar.kind, &vec![scalar.components[0]; size as usize])
-            }
-            Expression::Swizzle { size, vector, pattern } => {
-                let vector = self.number(vector)?;
-                let picked: Vec<f64> =
-                    pattern.iter().take(size as usize).map(|c| vector.components[*c as usize]).collect();
-                Number::new(vector.kind, &picked)
-            }
-            Expression::AccessIndex { base, index } => match self.values.get(base.index())?.as_ref()? {
-                Value::Number(vector) => Number::new(vector.kind, &[*vector.components().get(index as usize)?]),
-                Value::Struct(members) => *members.get(index as usize)?,
-            },
-            Expression::Unary { op, expr } => self.unary(op, expr)?,
-            Expression::Binary { op, left, right } => binary(op, self.number(left)?, self.number(right)?)?,
-            Expression::Select { condition, accept, reject } => self.select(condition, accept, reject)?,
-            Expression::Relational { fun, argument } => {
-                let bools = self.number(argument)?;
-                let truth = match fun {
-                    naga::RelationalFunction::All => bools.components().iter().all(|b| *b != 0.0),
-                    naga::RelationalFunction::Any => bools.components().iter().any(|b| *b != 0.0),
-                    _ => return None,
-                };
-                Number::new(Kind::Bool, &[f64::from(u8::from(truth))])
-            }
-            Expression::As { expr, kind, convert: Some(_) } => {
-                let from = self.number(expr)?;
-                match (from.kind, kind) {
-                    (_, ScalarKind::Float) => Number::new(Kind::Float, from.components()),
-                    (Kind::Bool, ScalarKind::Sint) => Number::new(Kind::Int, from.components()),
-                    (Kind::Float | Kind::Int, ScalarKind::Sint) => {
-                        let clamped: Vec<f64> =
-                            from.components().iter().map(|x| x.trunc().clamp(-2147483648.0, 2147483647.0)).collect();
-                        Number::new(Kind::Int, &clamped)
-                    }
-                    _ => return None,
-                }
-            }
-            Expression::Math { fun, arg, arg1, arg2, .. } => self.math(fun, arg, arg1, arg2)?,
-            _ => return None,
-        };
-        Some(Value::Number(number))
-    }
-
-    fn compose(&self, ty: &TypeInner, components: &[Handle<Expression>]) -> Option<Value> {
-        let parts: Vec<Number> = components.iter().map(|c| self.number(*c)).collect::<Option<_>>()?;
-        match ty {
-            TypeInner::Vector { .. } => {
-                let all: Vec<f64> = parts.iter().flat_map(|p| p.components().to_vec()).collect();
-                Some(Value::Number(Number::new(parts.first()?.kind, &all)))
-            }
-            TypeInner::Struct { .. } => Some(Value::Struct(parts)),
-            _ => None,
-        }
-    }
-
-    fn unary(&self, op: naga::UnaryOperator, expr: Handle<Expression>) -> Option<Number> {
-        let value = self.number(expr)?;
-        match (op, value.kind) {
-            (naga::UnaryOperator::Negate, Kind::Float) => Some(value.map(|x| -x)),
-            (naga::UnaryOperator::LogicalNot, Kind::Bool) => Some(value.map(|x| 1.0 - x)),
-            _ => None,
-        }
-    }
-
-    fn select(
-        &self,
-        condition: Handle<Expression>,
-        accept: Handle<Expression>,
-        reject: Handle<Expression>,
-    ) -> Option<Number> {
-        let (condition, accept, reject) = (self.number(condition)?, self.number(accept)?, self.number(reject)?);
-        let mut result = reject;
-        for index in 0..result.len {
-            if condition.components[index % condition.len] != 0.0 {
-                result.components[index] = accept.components[index];
-            }
-        }
-        Some(result)
-    }
-
-    fn math(
-        &self,
-        fun: MathFunction,
-        a: Handle<Expression>,
-        b: Option<Handle<Expression>>,
-        c: Option<Handle<Expression>>,
-    ) -> Option<Number> {
-        use MathFunction as M;
-        let a = self.number(a)?;
-        if a.kind != Kind::Float {
-            return None;
-        }
-        let b = b.map(|b| self.number(b).ok_or(())).transpose().ok()?;
-        let c = c.map(|c| self.number(c).ok_or(())).transpose().ok()?;
-        let float = |x: f64| Number::new(Kind::Float, &[x]);
-        let zip = |f: fn(f64, f64) -> f64| a.zip(b?, Kind::Float, f);
-        Some(match fun {
-            M::Abs => a.map(f64::abs),
-            M::Sign => a.map(|x| if x == 0.0 { 0.0 } else { x.signum() }),
-            M::Floor => a.map(f64::floor),
-            M::Ceil => a.map(f64::ceil),
-            M::Trunc => a.map(f64::trunc),
-            M::Round => a.map(f64::round_ties_even),
-            M::Fract => a.map(|x| f64::from((x - x.floor()) as f32)),
-            M::Sqrt => a.map(f64::sqrt),
-            M::InverseSqrt => a.map(|x| 1.0 / x.sqrt()),
-            M::Exp => a.map(f64::exp),
-            M::Exp2 => a.map(f64::exp2),
-            M::Log => a.map(f64::ln),
-            M::Log2 => a.map(f64::log2),
-            M::Sin => a.map(f64::sin),
-            M::Cos => a.map(f64::cos),
-            M::Tan => a.map(f64::tan),
-            M::Asin => a.map(f64::asin),
-            M::Acos => a.map(f64::acos),
-            M::Atan => a.map(f64::atan),
-            M::Sinh => a.map(f64::sinh),
-            M::Cosh => a.map(f64::cosh),
-            M::Tanh => a.map(f64::tanh),
-            M::Radians => a.map(f64::to_radians),
-            M::Degrees => a.map(f64::to_degrees),
-            M::Saturate => a.map(|x| x.clamp(0.0, 1.0)),
-            M::Min => zip(f64::min)?,
-            M::Max => zip(f64::max)?,
-            M::Pow => zip(f64::powf)?,
-            M::Atan2 => zip(f64::atan2)?,
-            M::Step => zip(|edge, x| if edge <= x { 1.0 } else { 0.0 })?,
-            M::Clamp => a.zip(b?, Kind::Float, f64::max)?.zip(c?, Kind::Float, f64::min)?,
-            M::Mix => {
-                let t = c?;
-                let from = a.zip(t.map(|t| 1.0 - t), Kind::Float, |a, s| a * s)?;
-                from.zip(b?.zip(t, Kind::Float, |b, t| b * t)?, Kind::Float, |a, b| a + b)?
-            }
-            M::Fma => a.zip(b?, Kind::Float, |a, b| a * b)?.zip(c?, Kind::Float, |p, c| p + c)?,
-            M::SmoothStep => {
-                let (low, high, x) = (a, b?, c?);
-                let width = high.zip(low, Kind::Float, |h, l| h - l)?;
-                let t =
-                    x.zip(low, Kind::Float, |x, l| x - l)?.zip(width, Kind::Float, |d, w| (d / w).clamp(0.0, 1.0))?;
-                t.map(|t| t * t * (3.0 - 2.0 * t))
-            }
-            M::Dot => float(a.dot(b?)?),
-            M::Length => float(a.dot(a)?.sqrt()),
-            M::Distance => {
-                let d = a.zip(b?, Kind::Float, |a, b| a - b)?;
-                float(d.dot(d)?.sqrt())
-            }
-            M::Normalize => {
-                let length = f64::from(a.dot(a)?.sqrt() as f32);
-                a.map(|x| x / length)
-            }
-            M::Cross => {
-                let (u, v) = (a.components, b?.components);
-                let component = |i: usize, j: usize| f64::from((u[i] * v[j]) as f32) - f64::from((u[j] * v[i]) as f32);
-                Number::new(Kind::Float, &[component(1, 2), component(2, 0), component(0, 1)])
-            }
-            _ => return None,
-        })
-    }
-}
-
-fn binary(op: naga::BinaryOperator, left: Number, right: Number) -> Option<Number> {
-    use naga::BinaryOperator as B;
-    let truth = |t: bool| f64::from(u8::from(t));
-    match (op, left.kind) {
-        (B::Add, Kind::Float) => left.zip(right, Kind::Float, |a, b| a + b),
-        (B::Subtract, Kind::Float) => left.zip(right, Kind::Float, |a, b| a - b),
-        (B::Multiply, Kind::Float) => left.zip(right, Kind::Float, |a, b| a * b),
-        (B::Divide, Kind::Float) => left.zip(right, Kind::Float, |a, b| a / b),
-        (B::Modulo, Kind::Float) => left.zip(right, Kind::Float, |a, b| a % b),
-        (B::Equal, _) => left.zip(right, Kind::Bool, |a, b| truth(a == b)),
-        (B::NotEqual, _) => left.zip(right, Kind::Bool, |a, b| truth(a != b)),
-        (B::Less, _) => left.zip(right, Kind::Bool, |a, b| truth(a < b)),
-        (B::LessEqual, _) => left.zip(right, Kind::Bool, |a, b| truth(a <= b)),
-        (B::Greater, _) => left.zip(right, Kind::Bool, |a, b| truth(a > b)),
-        (B::GreaterEqual, _) => left.zip(right, Kind::Bool, |a, b| truth(a >= b)),
-        (B::LogicalAnd | B::And, Kind::Bool) => left.zip(right, Kind::Bool, |a, b| a * b),
-        (B::LogicalOr | B::InclusiveOr, Kind::Bool) => left.zip(right, Kind::Bool, f64::max),
-        _ => None,
-    }
-}
-
-fn from_literal(literal: NagaLiteral) -> Option<Number> {
-    Some(match literal {
-        NagaLiteral::F32(x) => Number::new(Kind::Float, &[f64::from(x)]),
-        NagaLiteral::I32(x) => Number::new(Kind::Int, &[f64::from(x)]),
-        NagaLiteral::Bool(x) => Number::new(Kind::Bool, &[f64::from(u8::from(x))]),
-        _ => return None,
-    })
-}
-
-fn zero(ty: &TypeInner) -> Option<Number> {
-    let (scalar, len) = match ty {
+fn number_type(inner: &TypeInner) -> Option<(Kind, usize)> {
+    let (scalar, len) = match *inner {
         TypeInner::Scalar(scalar) => (scalar, 1),
-        TypeInner::Vector { size, scalar } => (scalar, *size as usize),
+        TypeInner::Vector { size, scalar } => (scalar, size as usize),
         _ => return None,
     };
-    let kind = match scalar.kind {
-        ScalarKind::Float => Kind::Float,
-        ScalarKind::Sint => Kind::Int,
-        ScalarKind::Bool => Kind::Bool,
+    let kind = match scalar {
+        Scalar::F32 => Kind::Float,
+        Scalar::I32 => Kind::Int,
+        Scalar { kind: ScalarKind::Bool, .. } => Kind::Bool,
         _ => return None,
     };
-    Some(Number { kind, len, components: [0.0; 4] })
+    Some((kind, len))
 }
 
-/// The value of a module-scope constant.
-fn global(module: &Module, handle: Handle<Expression>) -> Option<Number> {
-    match &module.global_expressions[handle] {
-        Expression::Literal(literal) => from_literal(*literal),
-        Expression::Splat { size, value } => {
-            let Expression::Literal(literal) = module.global_expressions[*value] else { return None };
-            let scalar = from_literal(literal)?;
-            Some(Number::new(scalar.kind, &vec![scalar.components[0]; *size as usize]))
-        }
-        Expression::Compose { ty, components } if matches!(module.types[*ty].inner, TypeInner::Vector { .. }) => {
-            let mut all = Vec::new();
-            let mut kind = Kind::Float;
-            for component in components {
-                let Expression::Literal(literal) = module.global_expressions[*component] else { return None };
-                let scalar = from_literal(literal)?;
-                kind = scalar.kind;
-                all.push(scalar.components[0]);
+impl Callable {
+    /// `None` for a function that cannot run on numbers alone.
+    pub(crate) fn new(module: &Module, function: &Function) -> Option<Callable> {
+        let inner = |ty: Handle<naga::Type>| &module.types[ty].inner;
+        let arguments = function.arguments.iter().map(|a| number_type(inner(a.ty))).collect::<Option<Vec<_>>>()?;
+        let (results, is_struct) = match inner(function.result.as_ref()?.ty) {
+            TypeInner::Struct { members, .. } => {
+                (members.iter().map(|m| number_type(inner(m.ty))).collect::<Option<Vec<_>>>()?, true)
             }
-            Some(Number::new(kind, &all))
+            plain => (vec![number_type(plain)?], false),
+        };
+        let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(module).ok()?;
+        let program = Program::compile(module, &info, Entry::Function(function.name.as_deref()?)).ok()?;
+        (!program.uses_derivatives()).then_some(Callable { program, arguments, results, is_struct })
+    }
+
+    /// The value for constant arguments; `None` where there is none within the limits.
+    pub(crate) fn call(&self, arguments: &[Number]) -> Option<Value> {
+        let mut floats: Vec<[f32; 1]> = Vec::new();
+        let mut words: Vec<[u32; 1]> = Vec::new();
+        let mut kinds = Vec::new();
+        if arguments.len() != self.arguments.len() {
+            return None;
         }
-        _ => None,
+        for (number, (kind, len)) in arguments.iter().zip(&self.arguments) {
+            if number.kind != *kind || number.len != *len && number.len != 1 {
+                return None;
+            }
+            for i in 0..*len {
+                floats.push([number.components[i % number.len] as f32]);
+                words.push([number.word(i % number.len)]);
+                kinds.push(*kind);
+            }
+        }
+        let inputs: Vec<Column<'_, f32>> = kinds
+            .iter()
+            .enumerate()
+            .map(|(i, kind)| if *kind == Kind::Float { Column::Float(&floats[i]) } else { Column::Word(&words[i]) })
+            .collect();
+        let mut out = Outputs::default();
+        self.program.run(&inputs, 1, &mut out, &Resources::default(), Derivatives::Zero, LIMITS).ok()?;
+        let mut columns = out.columns.iter().map(|c| c.to_f64()[0]);
+        let numbers: Vec<Number> = self
+            .results
+            .iter()
+            .map(|(kind, len)| {
+                let components: Vec<f64> = columns.by_ref().take(*len).collect();
+                match kind {
+                    // Words come back unsigned.
+                    Kind::Int => {
+                        let signed: Vec<f64> =
+                            components.iter().map(|x| f64::from((*x as u32).cast_signed())).collect();
+                        Number::new(*kind, &signed)
+                    }
+                    _ => Number::new(*kind, &components),
+                }
+            })
+            .collect();
+        if self.is_struct { Some(Value::Struct(numbers)) } else { numbers.first().map(|n| Value::Number(*n)) }
     }
 }
 
@@ -407,7 +190,7 @@ mod tests {
         let source = format!("const K: vec3f = vec3f(2.0);\nstruct S {{ a: f32, b: vec2f }}\n{body}");
         let module = naga::front::wgsl::parse_str(&source).expect("sound WGSL");
         let (_, function) = module.functions.iter().next().expect("a function");
-        match evaluate(&module, function, arguments)? {
+        match Callable::new(&module, function)?.call(arguments)? {
             Value::Number(number) => Some(number.components().to_vec()),
             Value::Struct(members) => Some(members.iter().flat_map(|m| m.components().to_vec()).collect()),
         }
@@ -434,9 +217,24 @@ mod tests {
     }
 
     #[test]
-    fn leaves_alone_what_it_does_not_know() {
-        assert_eq!(run("fn g(a: f32) -> f32 { if a > 1.0 { return 2.0; } return a; }", &[f(&[3.0])]), None);
-        assert_eq!(run("fn g(a: f32) -> f32 { var b = a; b += 1.0; return b; }", &[f(&[3.0])]), None);
+    fn runs_control_flow_and_calls() {
+        let branch = "fn g(a: f32) -> f32 { if a > 1.0 { return 2.0; } return a; }";
+        assert_eq!(run(branch, &[f(&[3.0])]).unwrap(), [2.0]);
+        assert_eq!(run(branch, &[f(&[0.5])]).unwrap(), [0.5]);
+        let looped = "fn g(n: i32) -> i32 { var s = 0; for (var i = 0; i < n; i++) { s -= i; } return s; }";
+        assert_eq!(run(looped, &[Number::new(Kind::Int, &[4.0])]).unwrap(), [-6.0]);
+        let chosen = "fn g(b: bool, x: vec2f) -> bool { return b && any(x > vec2f(1.0)); }";
+        assert_eq!(run(chosen, &[Number::new(Kind::Bool, &[1.0]), f(&[0.0, 2.0])]).unwrap(), [1.0]);
+    }
+
+    #[test]
+    fn leaves_alone_what_it_cannot_know() {
+        assert_eq!(run("fn g(a: f32) -> f32 { loop { if a < 0.0 { break; } } return a; }", &[f(&[3.0])]), None);
+        assert_eq!(run("fn g(a: f32) -> f32 { return dpdx(a); }", &[f(&[3.0])]), None);
+        assert_eq!(
+            run("@group(0) @binding(0) var<uniform> u: f32; fn g(a: f32) -> f32 { return a * u; }", &[f(&[3.0])]),
+            None
+        );
     }
 
     #[test]

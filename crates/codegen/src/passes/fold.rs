@@ -1,6 +1,6 @@
 //! Pass: constants are computed and identities taken out, so that neither reaches the shader.
 //!
-//! A call folds when its function is straight-line code of built-in operators and all its arguments are constants; a
+//! A call folds when all its arguments are constants and its function can run on numbers alone; a
 //! product with 1 or 0, a sum with 0 and a mix at 0 or 1 fold when one argument is. What is not finite is an error at
 //! its node, never text.
 
