@@ -61,6 +61,10 @@ const OPENING = 0.2;
 const LONGEST_CHANGE = 1.0;
 /// The part for nodes across the horizon, where the lobe has an edge.
 const HORIZON_OPENING = 0.1;
+/// The lobe's change with a is taken between a times this and a divided by it.
+const WIDER = 1.02;
+/// Keeps 0 / 0 of a black environment 0.
+const MIN_LIGHT = 1e-30;
 const LUMINANCE = vec3f(0.2126, 0.7152, 0.0722);
 
 /// Where the nodes of a level begin: the levels below it have 4^depth, 4^(depth - 1), ... nodes in each tree.
@@ -149,8 +153,7 @@ fn face_direction(face: u32, s: f32, t: f32) -> vec3f {
 /// The prefilter lobe (Karis 2013, n = v = r) at the cosine x = 1 - s > 0, times alpha^4, with the mean of its neighbourhood:
 ///   w = x q^2,  q = a / (a + b s),  a = alpha^2,  b = (1 - a) / 2
 /// and w + variance / 4 (Laplacian of w on the sphere), where the Laplacian is s (2 - s) w'' - 2 x w'.
-fn lobe(s: f32, variance: f32) -> f32 {
-    let a = bake.alpha * bake.alpha;
+fn lobe(a: f32, s: f32, variance: f32) -> f32 {
     let b = 0.5 * (1.0 - a);
     let x = 1.0 - s;
     let d = a + b * s;
@@ -160,7 +163,8 @@ fn lobe(s: f32, variance: f32) -> f32 {
     return max(x * q * q + 0.25 * variance * (s * (2.0 - s) * second - 2.0 * x * first), 0.0);
 }
 
-/// Filters the map for one texel of the cube. The walk needs no stack: nodes stand in Z-order, so the next node of a level
+/// Filters the map for one texel of the cube, and says how the logarithm of the weighted sum of light, red, green and blue
+/// together, changes with the logarithm of a. The walk needs no stack: nodes stand in Z-order, so the next node of a level
 /// has the next number, and after the fourth of a family comes the one after its parent.
 @compute @workgroup_size(64)
 fn bake_texel(@builtin(global_invocation_id) id: vec3u) {
@@ -176,6 +180,7 @@ fn bake_texel(@builtin(global_invocation_id) id: vec3u) {
     let a = bake.alpha * bake.alpha;
 
     var sum = vec3f(0.0);
+    var change = 0.0;
     var level = bake.depth;
     var number = 0u;
     while level < bake.depth || number < bake.trees {
@@ -184,15 +189,18 @@ fn bake_texel(@builtin(global_invocation_id) id: vec3u) {
         // 1 - n.l without cancellation.
         let s = 0.5 * dot(away, away);
         let seen = any(node.energy > vec3f(0.0)) && 1.0 - s > -node.extent;
-        let change = min(2.0 * sqrt(0.5 * s + a), LONGEST_CHANGE);
+        let near = min(2.0 * sqrt(0.5 * s + a), LONGEST_CHANGE);
         let crosses = abs(1.0 - s) < node.extent && node.extent > HORIZON_OPENING;
-        if seen && level > 0u && (crosses || node.extent > OPENING * change) {
+        if seen && level > 0u && (crosses || node.extent > OPENING * near) {
             level -= 1u;
             number *= 4u;
             continue;
         }
         if seen && s < 1.0 {
-            sum += node.energy * lobe(s, node.variance);
+            let wider = lobe(a * WIDER, s, node.variance);
+            let narrower = lobe(a / WIDER, s, node.variance);
+            sum += node.energy * lobe(a, s, node.variance);
+            change += dot(node.energy, vec3f(1.0)) * (wider - narrower);
         }
         number += 1u;
         while level < bake.depth && (number & 3u) == 0u {
@@ -200,5 +208,7 @@ fn bake_texel(@builtin(global_invocation_id) id: vec3u) {
             level += 1u;
         }
     }
-    texels[index] = vec4f(sum * bake.scale, 1.0);
+    // Light divides by light: the weight's scale does not count.
+    let slope = change / max(2.0 * log(WIDER) * dot(sum, vec3f(1.0)), MIN_LIGHT);
+    texels[index] = vec4f(sum * bake.scale, slope);
 }
