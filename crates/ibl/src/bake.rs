@@ -4,7 +4,7 @@ use crate::cube::Cube;
 use crate::equirect::Equirect;
 use crate::harmonics::{MAX_BAND, Spectrum};
 use crate::kernel::{MIN_ALPHA, cosine_kernel, ggx_band, ggx_grid_rows, ggx_kernel};
-use crate::load::{LoadedEnvironment, Source};
+use crate::load::{LoadedEnvironment, Source, StoredLevels, StoredLobe};
 use crate::lobe::narrow_lobe;
 use crate::resample::{cube_from_equirect, equirect_from_cube};
 use halfvector_brdf::ggx::alpha_from_perceptual_roughness;
@@ -82,7 +82,7 @@ pub fn bake(environment: &LoadedEnvironment, options: &BakeOptions) -> BakedEnvi
     let face = |level: usize| (size >> level).max(1);
 
     let stored = match &*source {
-        Source::Levels(stored) if options.level_map == LevelMap::Report => Some(stored),
+        Source::Levels(stored) if serves(stored, options, &roughness, size) => Some(stored),
         _ => None,
     };
     let (map, level_0) = match &*source {
@@ -127,6 +127,12 @@ fn prefiltered(spectrum: &Spectrum, level_0: &Cube, alpha: f64, size: usize, ban
         let grid = grid();
         Cube::from_fn(size, |dir| grid.sample(dir))
     }
+}
+
+/// Whether the levels of a file are what is asked for, so that they are taken as they are.
+fn serves(stored: &StoredLevels, options: &BakeOptions, roughness: &[f32], size: usize) -> bool {
+    let report = options.level_map == LevelMap::Report && matches!(stored.lobe, StoredLobe::Hdre { .. });
+    report || stored.levels[0].size == size && stored.are_ggx_for(roughness)
 }
 
 /// The roughness of each level.

@@ -1,7 +1,7 @@
 //! Image-based lighting: any environment in, light that a shader can look up out.
 //!
-//! * [`load()`] reads Radiance `.hdr`, OpenEXR, HDRE and ordinary images into a [`LoadedEnvironment`], repaired and counted;
-//!   [`builtin`] makes three environments of our own.
+//! * [`load()`] reads Radiance `.hdr`, OpenEXR, HDRE, KTX2 and ordinary images, maps of all directions or cubes, into a
+//!   [`LoadedEnvironment`], repaired and counted; [`builtin`] makes three environments of our own; [`save`] writes levels.
 //! * [`bake()`] turns one into a [`BakedEnvironment`]: a cube of radiance prefiltered for a rising roughness per level,
 //!   diffuse irradiance as a cube and as spherical harmonics. No random numbers: the same input gives the same bytes.
 //! * [`dfg_table`] is the split sum's other factor.
@@ -19,17 +19,22 @@ pub mod environment;
 mod equirect;
 mod harmonics;
 mod kernel;
+mod ktx2;
 mod load;
 mod lobe;
 pub mod occlusion;
 mod repair;
 mod resample;
+pub mod save;
 
 pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, bake};
 pub use builtin::{sky, studio, white};
 pub use cube::{Cube, direction_from_face, face_from_direction, texel_solid_angle};
 pub use dfg::{DFG_SIZE, DfgTable, Visibility, dfg, dfg_table, dfg_table_with};
 pub use equirect::{Equirect, direction_from_equirect, equirect_from_direction};
-pub use load::{Format, Limits, LoadError, LoadedEnvironment, Source, StoredLevels, load, load_within};
+pub use load::{
+    Format, Layout, Limits, LoadError, LoadedEnvironment, Source, StoredLevels, StoredLobe, load, load_faces,
+    load_within,
+};
 pub use repair::{MAX_RADIANCE, Repairs, repair};
 pub use resample::{cube_from_equirect, equirect_from_cube};

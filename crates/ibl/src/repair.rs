@@ -21,6 +21,14 @@ impl Repairs {
     }
 }
 
+impl std::ops::AddAssign for Repairs {
+    fn add_assign(&mut self, other: Repairs) {
+        self.not_a_number += other.not_a_number;
+        self.negative += other.negative;
+        self.too_bright += other.too_bright;
+    }
+}
+
 impl std::fmt::Display for Repairs {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         if self.is_none() {

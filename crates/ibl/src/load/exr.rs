@@ -1,11 +1,19 @@
-//! OpenEXR: half, float or integer channels in any order, every compression that the `exr` crate knows (DWAB too).
+//! OpenEXR: half, float or integer channels in any order, scan lines or tiles, every compression that the `exr` crate knows
+//! (DWAB too), the first suitable part of several.
 //!
-//! The first flat layer with R, G and B, or Y alone as grey; other channels are ignored, chromaticities too.
+//! Suitable is a flat part with R, G and B, or with Y alone as grey; a layer or view may stand before the name ("left.R").
+//! Other channels, parts and resolution levels are not kept in memory. Chromaticities are told, not applied. Strips of
+//! levels that `save::exr` wrote are read back as levels.
 
-use super::{Fault, Limits, checked_texels, field};
+use super::layout::levels_in_strip;
+use super::{Content, Fault, Limits, Picture, StoredLevels, StoredLobe, checked_texels, field, roughness_list};
 use crate::equirect::Equirect;
-use exr::meta::MetaData;
-use exr::prelude::{ReadChannels, ReadLayers, read as reader};
+use crate::ktx2::KEY_ROUGHNESS;
+use exr::block::lines::LineRef;
+use exr::block::reader::ChunksReader;
+use exr::meta::attribute::{AttributeValue, Chromaticities, EnvironmentMap, SampleType};
+use exr::meta::header::Header;
+use exr::prelude::{Vec2, f16};
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -14,73 +22,170 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 const MAX_TEXELS_PER_BYTE: usize = 65536;
 
 /// Reads the bytes of an OpenEXR file.
-fn read_layer(bytes: &[u8], limits: Limits) -> Result<Equirect, Fault> {
-    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(explained)?;
-    for header in &meta.headers {
-        let size = header.layer_size;
-        let count = checked_texels(size.width() as u64, size.height() as u64, limits)?;
-        if count / MAX_TEXELS_PER_BYTE > bytes.len() {
-            let (width, height) = (size.width(), size.height());
-            return Err(field(
-                "dataWindow",
-                format!("{width} x {height} texels do not fit a file of {} bytes", bytes.len()),
-            ));
-        }
-        if header.channels.list.len() > 64 {
-            return Err(field("channels", "more than 64 of them; save red, green and blue alone"));
-        }
-    }
-    let image = reader()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .first_valid_layer()
-        .all_attributes()
-        .non_parallel()
-        .from_buffered(Cursor::new(bytes))
-        .map_err(explained)?;
-    let layer = image.layer_data;
-    let (width, height) = (layer.size.width(), layer.size.height());
+fn read_part(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
+    let reader = exr::block::read(Cursor::new(bytes), false).map_err(explained)?;
+    reader.headers().iter().try_for_each(|header| check_header(header, bytes.len(), limits))?;
+    let (part, channels) = suitable_part(reader.headers())?;
+    let header = &reader.headers()[part];
+    let notes = checked_attributes(header)?;
+    let list = header.channels.clone();
+    let roughness = stored_roughness(header);
+    let (width, height) = (header.layer_size.width(), header.layer_size.height());
     let count = checked_texels(width as u64, height as u64, limits)?;
 
-    let channels = &layer.channel_data.list;
-    // "R", or the last part of a name with a view or layer before it, such as "left.R".
-    let named = |wanted: &str| {
-        let name_is = |whole: bool, name: &str| {
-            let name = if whole { name } else { name.rsplit('.').next().unwrap_or(name) };
-            name.eq_ignore_ascii_case(wanted)
-        };
-        let find = |whole| channels.iter().find(|channel| name_is(whole, &channel.name.to_string()));
-        find(true).or_else(|| find(false))
-    };
-    let chosen = match (named("R"), named("G"), named("B"), named("Y"), named("RY")) {
-        (Some(r), Some(g), Some(b), ..) => [r, g, b],
-        (None, None, None, Some(y), None) => [y, y, y],
-        _ => {
-            let names: Vec<String> = channels.iter().map(|channel| channel.name.to_string()).collect();
-            let names = names.join(", ");
-            return Err(field("channels", format!("R, G and B are needed, or Y alone, and there are: {names}")));
-        }
-    };
-    let mut pixels = vec![[0.0; 3]; count];
-    for (c, channel) in chosen.into_iter().enumerate() {
-        if channel.sample_data.len() != count {
-            let name = channel.name.to_string();
-            return Err(field(
-                "channels",
-                format!("{name} has fewer samples than the layer; save it without subsampling"),
-            ));
-        }
-        for (pixel, value) in pixels.iter_mut().zip(channel.sample_data.values_as_f32()) {
-            pixel[c] = value;
+    let mut chunks = reader
+        .filter_chunks(false, |_, _, block| block.layer == part && block.level == Vec2(0, 0))
+        .map_err(explained)?
+        .sequential_decompressor(false);
+    // Only when the first block is sound: a header alone buys no memory.
+    let mut pixels: Vec<[f32; 3]> = Vec::new();
+    while let Some(block) = chunks.decompress_next_block() {
+        let block = block.map_err(explained)?;
+        pixels.resize(count, [0.0; 3]);
+        for line in block.lines(&list) {
+            let Vec2(x, y) = line.location.position;
+            let start = y * width + x;
+            let target = pixels
+                .get_mut(start..start + line.location.sample_count)
+                .ok_or_else(|| field("pixels", "a block lies outside of the data window; the file is damaged"))?;
+            for c in (0..3).filter(|&c| channels[c] == line.location.channel) {
+                read_line(&line, list.list[channels[c]].sample_type, target, c)?;
+            }
         }
     }
-    Ok(Equirect { width, height, pixels })
+    if pixels.is_empty() {
+        return Err(Fault::Truncated("its pixels".to_owned()));
+    }
+    let map = Equirect { width, height, pixels };
+    let Some(text) = roughness else {
+        return Ok(Content::Picture(Picture { map, low_dynamic_range: false, notes }));
+    };
+    let wrong = |why| field(KEY_ROUGHNESS, why);
+    let roughness = roughness_list(&text, text.split(',').count()).map_err(wrong)?;
+    let levels = levels_in_strip(&map, roughness.len())
+        .ok_or_else(|| wrong(format!("{} levels do not fit a strip of {width} x {height}", roughness.len())))?;
+    Ok(Content::Levels(StoredLevels { levels, lobe: StoredLobe::Ggx(roughness), irradiance_sh: None }, notes))
+}
+
+/// The text that says that the picture is a strip of levels.
+fn stored_roughness(header: &Header) -> Option<String> {
+    let mut attributes = header.own_attributes.other.iter();
+    attributes.find_map(|(name, value)| match value {
+        AttributeValue::Text(text) if *name == KEY_ROUGHNESS => Some(text.to_string()),
+        _ => None,
+    })
+}
+
+/// Puts one channel of a line into component `c` of its pixels.
+fn read_line(line: &LineRef<'_>, kind: SampleType, target: &mut [[f32; 3]], c: usize) -> Result<(), Fault> {
+    fn put<T: exr::io::Data>(
+        line: &LineRef<'_>,
+        target: &mut [[f32; 3]],
+        c: usize,
+        value: impl Fn(T) -> f32,
+    ) -> Result<(), Fault> {
+        for (pixel, sample) in target.iter_mut().zip(line.read_samples::<T>()) {
+            pixel[c] = value(sample.map_err(explained)?);
+        }
+        Ok(())
+    }
+    match kind {
+        SampleType::F16 => put(line, target, c, f16::to_f32),
+        SampleType::F32 => put(line, target, c, |x: f32| x),
+        SampleType::U32 => put(line, target, c, |x: u32| x as f32),
+    }
+}
+
+/// Refuses sizes that the file cannot hold and more channels than pictures have.
+fn check_header(header: &Header, file_bytes: usize, limits: Limits) -> Result<(), Fault> {
+    let (width, height) = (header.layer_size.width(), header.layer_size.height());
+    let count = checked_texels(width as u64, height as u64, limits)?;
+    if count / MAX_TEXELS_PER_BYTE > file_bytes {
+        return Err(field("dataWindow", format!("{width} x {height} texels do not fit a file of {file_bytes} bytes")));
+    }
+    if header.channels.list.len() > 64 {
+        return Err(field("channels", "more than 64 of them; save red, green and blue alone"));
+    }
+    Ok(())
+}
+
+/// The first part that holds colours, and the places of red, green and blue in its list of channels.
+fn suitable_part(headers: &[Header]) -> Result<(usize, [usize; 3]), Fault> {
+    let flat = |header: &&Header| !header.deep;
+    if let Some(found) = headers
+        .iter()
+        .enumerate()
+        .filter(|(_, header)| flat(header))
+        .find_map(|(part, header)| colour_channels(header).map(|channels| (part, channels)))
+    {
+        return Ok(found);
+    }
+    if !headers.iter().any(|header| flat(&header)) {
+        return Err(field("type", "there is only deep data; save the picture flattened"));
+    }
+    let names: Vec<String> =
+        headers.iter().flat_map(|header| &header.channels.list).map(|channel| channel.name.to_string()).collect();
+    Err(field("channels", format!("R, G and B are needed, or Y alone, and there are: {}", names.join(", "))))
+}
+
+/// Where R, G and B stand, or Y three times.
+fn colour_channels(header: &Header) -> Option<[usize; 3]> {
+    let names: Vec<String> = header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
+    // Plain names first, then those of the first layer or view that has all three.
+    let mut prefixes = vec![""];
+    for name in &names {
+        let prefix = &name[..name.rfind('.').map_or(0, |dot| dot + 1)];
+        if !prefixes.contains(&prefix) {
+            prefixes.push(prefix);
+        }
+    }
+    let place = |prefix: &str, wanted: &str| {
+        names.iter().position(|name| name.strip_prefix(prefix).is_some_and(|rest| rest.eq_ignore_ascii_case(wanted)))
+    };
+    prefixes.iter().find_map(|prefix| match [place(prefix, "R"), place(prefix, "G"), place(prefix, "B")] {
+        [Some(r), Some(g), Some(b)] => Some([r, g, b]),
+        // With RY and BY beside it, Y is no grey but part of a colour.
+        [None, None, None] if place(prefix, "RY").is_none() => place(prefix, "Y").map(|y| [y; 3]),
+        _ => None,
+    })
+}
+
+/// Refuses what would be read wrongly; gives what its owner may not expect.
+fn checked_attributes(header: &Header) -> Result<Vec<String>, Fault> {
+    if let Some(channel) = header.channels.list.iter().find(|channel| channel.sampling != Vec2(1, 1)) {
+        return Err(field("channels", format!("{} is subsampled; save it at full resolution", channel.name)));
+    }
+    if header.own_attributes.environment_map == Some(EnvironmentMap::Cube) {
+        return Err(field("envmap", "OpenEXR's own cube layout is not read; convert it to latlong"));
+    }
+    let window = header.shared_attributes.display_window.size;
+    if window != header.layer_size {
+        let (wide, high) = (header.layer_size.width(), header.layer_size.height());
+        return Err(field(
+            "dataWindow",
+            format!(
+                "{wide} x {high} is not the displayWindow of {} x {}; save the whole map, without crop or overscan",
+                window.width(),
+                window.height()
+            ),
+        ));
+    }
+    let mut notes = Vec::new();
+    if header.shared_attributes.chromaticities.is_some_and(|found| !is_rec709(&found)) {
+        notes.push("its chromaticities are not those of Rec. 709; the values are taken as Rec. 709".to_owned());
+    }
+    Ok(notes)
+}
+
+/// ITU-R BT.709-6 primaries; the white point is not looked at.
+fn is_rec709(found: &Chromaticities) -> bool {
+    let near = |a: Vec2<f32>, x: f32, y: f32| (a.0 - x).abs() < 0.01 && (a.1 - y).abs() < 0.01;
+    near(found.red, 0.64, 0.33) && near(found.green, 0.30, 0.60) && near(found.blue, 0.15, 0.06)
 }
 
 /// The reader below is another's and reads hostile bytes: a panic inside it must stay one file's error.
-pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Equirect, Fault> {
-    catch_unwind(AssertUnwindSafe(|| read_layer(bytes, limits)))
+pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
+    catch_unwind(AssertUnwindSafe(|| read_part(bytes, limits)))
         .unwrap_or_else(|_| Err(field("pixels", "the decoder gave up on them; the file is damaged")))
 }
 

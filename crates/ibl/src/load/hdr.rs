@@ -1,33 +1,18 @@
 //! Radiance `.hdr`: flat, old and new run lengths, all eight orientations, RGBE and XYZE.
 //!
-//! Values are mantissa * 2^(exponent - 136), as nearly all programs read them; EXPOSURE and COLORCORR lines are not
-//! applied, for the same reason.
+//! Values are mantissa * 2^(exponent - 136), as nearly all programs read them. EXPOSURE and COLORCORR lines say by what
+//! the values have been multiplied, so they are divided by it, and the user is told. PRIMARIES are told, not applied.
 
-use super::{Fault, Limits, checked_texels, field};
+use super::{Fault, Limits, Picture, checked_texels, field};
 use crate::equirect::Equirect;
 
 /// The header is text; a file whose header goes on for longer is not one.
 const MAX_HEADER: usize = 65536;
 
 /// Larsson and Shakespeare 1998, "Rendering with Radiance", and the Radiance file format page (Ward).
-pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Equirect, Fault> {
+pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Picture, Fault> {
     let mut rest = bytes;
-    let mut xyz = false;
-    line(&mut rest, bytes.len())?;
-    loop {
-        let text = line(&mut rest, bytes.len())?;
-        if text.is_empty() {
-            break;
-        }
-        match text.strip_prefix(b"FORMAT=").map(<[u8]>::trim_ascii) {
-            Some(b"32-bit_rle_rgbe") | None => {}
-            Some(b"32-bit_rle_xyze") => xyz = true,
-            Some(other) => {
-                let other = String::from_utf8_lossy(other).into_owned();
-                return Err(field("FORMAT", format!("{other} is neither 32-bit_rle_rgbe nor 32-bit_rle_xyze")));
-            }
-        }
-    }
+    let header = Header::parsed(&mut rest)?;
     let size = Size::parsed(line(&mut rest, bytes.len())?)?;
     let count = checked_texels(size.line_length as u64, size.lines as u64, limits)?;
 
@@ -45,9 +30,102 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Equirect, Fault> {
         let (x, y) = if size.columns_first { (line, along) } else { (along, line) };
         let x = if size.from_right { width - 1 - x } else { x };
         let y = if size.from_bottom { height - 1 - y } else { y };
-        pixels[y * width + x] = decoded(*texel, xyz);
+        pixels[y * width + x] = header.radiance(*texel);
     }
-    Ok(Equirect { width, height, pixels })
+    Ok(Picture { map: Equirect { width, height, pixels }, low_dynamic_range: false, notes: header.notes() })
+}
+
+/// What the text before the resolution says.
+struct Header {
+    xyz: bool,
+    /// By what the values have been multiplied, all EXPOSURE lines together.
+    exposure: f32,
+    /// The same by channel, all COLORCORR lines together.
+    colorcorr: [f32; 3],
+    /// Chromaticities of red, green, blue and white that are not Radiance's or Rec. 709's.
+    other_primaries: bool,
+}
+
+impl Header {
+    fn parsed(rest: &mut &[u8]) -> Result<Header, Fault> {
+        let whole = rest.len();
+        let mut header = Header { xyz: false, exposure: 1.0, colorcorr: [1.0; 3], other_primaries: false };
+        line(rest, whole)?;
+        loop {
+            let text = line(rest, whole)?;
+            if text.is_empty() {
+                break;
+            }
+            let Some(equals) = text.iter().position(|&b| b == b'=') else { continue };
+            let value = text[equals + 1..].trim_ascii();
+            match &text[..equals] {
+                b"FORMAT" => match value {
+                    b"32-bit_rle_rgbe" => header.xyz = false,
+                    b"32-bit_rle_xyze" => header.xyz = true,
+                    other => {
+                        let other = String::from_utf8_lossy(other).into_owned();
+                        return Err(field("FORMAT", format!("{other} is neither 32-bit_rle_rgbe nor 32-bit_rle_xyze")));
+                    }
+                },
+                b"EXPOSURE" => header.exposure *= factors::<1>("EXPOSURE", value)?[0],
+                b"COLORCORR" => {
+                    let more = factors::<3>("COLORCORR", value)?;
+                    header.colorcorr = std::array::from_fn(|c| header.colorcorr[c] * more[c]);
+                }
+                b"PRIMARIES" => header.other_primaries = !usual_primaries(factors::<8>("PRIMARIES", value)?),
+                _ => {}
+            }
+        }
+        let together = header.colorcorr.map(|c| c * header.exposure);
+        if !together.iter().all(|x| x.is_normal()) {
+            return Err(field("EXPOSURE", "with COLORCORR it is too large or small; the header is damaged"));
+        }
+        Ok(header)
+    }
+
+    /// The linear Rec. 709 colour of a texel.
+    fn radiance(&self, texel: [u8; 4]) -> [f32; 3] {
+        let c = decoded(texel);
+        let c = std::array::from_fn(|i| c[i] / (self.exposure * self.colorcorr[i]));
+        if self.xyz { rec709_from_xyz(c) } else { c }
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.exposure != 1.0 {
+            notes
+                .push(format!("EXPOSURE: the file's values were multiplied by {}; this is divided out", self.exposure));
+        }
+        if self.colorcorr != [1.0; 3] {
+            let [r, g, b] = self.colorcorr;
+            notes.push(format!("COLORCORR: the file's values were multiplied by {r} {g} {b}; this is divided out"));
+        }
+        if self.other_primaries {
+            notes.push("PRIMARIES: they are not those of Rec. 709; the values are taken as Rec. 709".to_owned());
+        }
+        notes
+    }
+}
+
+/// The N positive numbers of a line of the header.
+fn factors<const N: usize>(name: &str, text: &[u8]) -> Result<[f32; N], Fault> {
+    let numbers = std::str::from_utf8(text).ok().and_then(|text| {
+        let numbers: Option<Vec<f32>> = text
+            .split_ascii_whitespace()
+            .map(|word| word.parse().ok().filter(|x: &f32| x.is_normal() && *x > 0.0))
+            .collect();
+        numbers?.try_into().ok()
+    });
+    numbers.ok_or_else(|| {
+        let text = String::from_utf8_lossy(&text[..text.len().min(60)]).into_owned();
+        field(name, format!("\"{text}\" is not {N} number{} above 0", if N == 1 { "" } else { "s" }))
+    })
+}
+
+/// Rec. 709 primaries (ITU-R BT.709-6), or Radiance's own, which are as good as the same.
+fn usual_primaries([rx, ry, gx, gy, bx, by, ..]: [f32; 8]) -> bool {
+    let near = |a: f32, b: f32| (a - b).abs() < 0.015;
+    near(rx, 0.64) && near(ry, 0.33) && near(gx, 0.295) && near(gy, 0.6) && near(bx, 0.15) && near(by, 0.06)
 }
 
 /// The next line of the header, without its end.
@@ -172,14 +250,13 @@ fn old_line(rest: &mut &[u8], texels: &mut Vec<[u8; 4]>, length: usize) -> Resul
     Ok(())
 }
 
-/// The linear Rec. 709 colour of a texel: mantissa * 2^(exponent - 136), exponent 0 is black.
-fn decoded([r, g, b, exponent]: [u8; 4], xyz: bool) -> [f32; 3] {
+/// The three numbers of a texel: mantissa * 2^(exponent - 136), exponent 0 is black.
+fn decoded([r, g, b, exponent]: [u8; 4]) -> [f32; 3] {
     if exponent == 0 {
         return [0.0; 3];
     }
     let scale = (f32::from(exponent) - 136.0).exp2();
-    let c = [r, g, b].map(|x| f32::from(x) * scale);
-    if xyz { rec709_from_xyz(c) } else { c }
+    [r, g, b].map(|x| f32::from(x) * scale)
 }
 
 /// CIE XYZ of Radiance's equal-energy white to linear Rec. 709 (ITU-R BT.709-6 primaries), each row scaled so that
@@ -195,6 +272,10 @@ mod tests {
     use super::*;
 
     fn pixels(bytes: &[u8]) -> Result<Equirect, String> {
+        picture(bytes).map(|picture| picture.map)
+    }
+
+    fn picture(bytes: &[u8]) -> Result<Picture, String> {
         read(bytes, Limits::default()).map_err(|fault| match fault {
             Fault::Field(field, reason) => format!("{field}: {reason}"),
             Fault::Truncated(field) => format!("truncated: {field}"),
@@ -204,8 +285,30 @@ mod tests {
     }
 
     fn file(resolution: &str, data: &[u8]) -> Vec<u8> {
-        [b"#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n", resolution.as_bytes(), b"\n", data]
-            .concat()
+        with_header("", resolution, data)
+    }
+
+    fn with_header(header: &str, resolution: &str, data: &[u8]) -> Vec<u8> {
+        let start = b"#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\n";
+        [start, header.as_bytes(), b"\n", resolution.as_bytes(), b"\n", data].concat()
+    }
+
+    /// What the header says was multiplied in is divided out again, and told.
+    #[test]
+    fn exposures_are_divided_out() {
+        let read = |header| picture(&with_header(header, "-Y 1 +X 1", &[16, 32, 64, 136]));
+        let plain = read("EXPOSURE= 1.0\nSOFTWARE=x\n").unwrap();
+        assert_eq!((plain.map.pixels[0], plain.notes.len()), ([16.0, 32.0, 64.0], 0));
+        let changed = read("EXPOSURE=2\nCOLORCORR=1 2 4\nEXPOSURE=4\nPRIMARIES=.7 .3 .17 .8 .13 .05 .3 .3\n").unwrap();
+        assert_eq!(changed.map.pixels[0], [2.0, 2.0, 2.0]);
+        assert_eq!(changed.notes.len(), 3, "{:?}", changed.notes);
+        for wrong in ["EXPOSURE=0\n", "EXPOSURE=two\n", "EXPOSURE=1e-30\nEXPOSURE=1e-30\n"] {
+            assert!(read(wrong).err().is_some_and(|error| error.starts_with("EXPOSURE")), "{wrong}");
+        }
+        assert!(read("COLORCORR=1 1\n").err().is_some_and(|error| error.starts_with("COLORCORR")));
+        // Grey stays grey when the file holds X, Y and Z.
+        let xyz = with_header("FORMAT=32-bit_rle_xyze\n", "-Y 1 +X 1", &[64, 64, 64, 136]);
+        assert!(pixels(&xyz).unwrap().pixels[0].iter().all(|x| (x - 64.0).abs() < 1e-3));
     }
 
     /// Each orientation says where its first texel lies and which way the second is.

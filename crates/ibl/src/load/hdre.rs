@@ -5,7 +5,7 @@
 //! (1 u8, 2 half, 3 float, 4 RGBE bytes), 30 includesSH u16, 32 numCoeffs f32, 36 coefficients. Types 1, 2 and 4 have no
 //! reference reader. maxFileSize and maxLuminance are a writer's constants: nothing is taken from them.
 
-use super::{Fault, Limits, StoredLevels, checked_texels, field};
+use super::{Fault, Limits, StoredLevels, StoredLobe, checked_texels, field};
 use crate::cube::Cube;
 use half::f16;
 
@@ -77,12 +77,7 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<StoredLevels, Fault> 
     if version < 3.0 {
         // Stored upside down: the swap of +Y and -Y and the flip of all rows together mirror y.
         levels.iter_mut().for_each(mirror_y);
-        if let Some(coefficients) = &mut irradiance_sh {
-            // y, xy and yz.
-            for k in [1, 4, 5] {
-                coefficients[k] = coefficients[k].map(|x| -x);
-            }
-        }
+        irradiance_sh = irradiance_sh.as_ref().map(mirrored_sh);
     } else {
         // Writers of 3.0 order the rows of level 0 and of the others differently, and readers disagree: see which way round
         // each level looks like the one before it.
@@ -94,7 +89,7 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<StoredLevels, Fault> 
             }
         }
     }
-    Ok(StoredLevels { levels, irradiance_sh, version })
+    Ok(StoredLevels { levels, lobe: StoredLobe::Hdre { version }, irradiance_sh })
 }
 
 /// How a component is stored.
@@ -154,6 +149,11 @@ fn coefficients(includes: usize, count: f32, at: impl Fn(usize) -> f32) -> Resul
         1 => Err(field("numCoeffs", format!("{count} where there are always 9"))),
         other => Err(field("includesSH", format!("{other} is neither 0 nor 1"))),
     }
+}
+
+/// Coefficients of `irradiance_sh2` seen in a mirror that lies flat: those of y, xy and yz change their sign.
+pub(crate) fn mirrored_sh(coefficients: &[[f32; 3]; 9]) -> [[f32; 3]; 9] {
+    std::array::from_fn(|k| if [1, 4, 5].contains(&k) { coefficients[k].map(|x| -x) } else { coefficients[k] })
 }
 
 /// The cube seen in a mirror that lies flat: y becomes -y.

@@ -2,12 +2,11 @@
 //!
 //! Codes are sRGB, or what the file's profile says, and become linear radiance 0..1; float TIFF files are taken as linear. Alpha is ignored.
 
-use super::{Fault, Limits, checked_texels};
+use super::{Fault, Limits, Picture, checked_texels};
 use crate::equirect::Equirect;
 use halfvector_maps::{Texels, color::linear_from_srgb};
 
-/// The map, and whether its dynamic range is low.
-pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<(Equirect, bool), Fault> {
+pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Picture, Fault> {
     let edge = u32::try_from(limits.max_edge).unwrap_or(u32::MAX);
     let limits_of_image = halfvector_maps::Limits {
         max_width: edge,
@@ -20,7 +19,7 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<(Equirect, bool), Fau
     let (width, height) = (image.width() as usize, image.height() as usize);
     checked_texels(width as u64, height as u64, limits)?;
     let linear = |codes: [f32; 3]| linear_from_srgb(codes);
-    let (pixels, low) = match image.texels() {
+    let (pixels, low_dynamic_range) = match image.texels() {
         Texels::U8(texels) => {
             let table: Vec<f32> = (0..=255u8).map(|code| linear([f32::from(code) / 255.0; 3])[0]).collect();
             (texels.iter().map(|&[r, g, b, _]| [r, g, b].map(|code| table[usize::from(code)])).collect(), true)
@@ -30,5 +29,5 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<(Equirect, bool), Fau
         }
         Texels::F32(texels) => (texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect(), false),
     };
-    Ok((Equirect { width, height, pixels }, low))
+    Ok(Picture { map: Equirect { width, height, pixels }, low_dynamic_range, notes: Vec::new() })
 }

@@ -2,8 +2,8 @@
 
 use crate::data_file;
 use halfvector_ibl::{
-    BakeOptions, Equirect, LevelMap, Limits, LoadError, LoadedEnvironment, MAX_RADIANCE, Source, StoredLevels, bake,
-    load, load_within,
+    BakeOptions, Equirect, LevelMap, Limits, LoadError, LoadedEnvironment, MAX_RADIANCE, Source, StoredLevels,
+    StoredLobe, bake, load, load_within,
 };
 use proptest::prelude::*;
 
@@ -69,7 +69,7 @@ fn hdre_files() {
         let Some(bytes) = data_file(name) else { return };
         let environment = load(&bytes, name).expect("the file is sound");
         let levels = stored(environment.clone());
-        assert_eq!(levels.version, 2.0);
+        assert_eq!(levels.lobe, StoredLobe::Hdre { version: 2.0 });
         let sizes: Vec<usize> = levels.levels.iter().map(|cube| cube.size).collect();
         assert_eq!(sizes, [0, 1, 2, 3, 4, 5].map(|i| (size >> i).max(8)));
         let (up, down) = (levels.levels[3].sample([0.0, 1.0, 0.0])[1], levels.levels[3].sample([0.0, -1.0, 0.0])[1]);
@@ -186,7 +186,7 @@ fn lying_headers_name_the_field() {
         (sound[..sound.len() - 1].to_vec(), "its levels"),
         (sound[..100].to_vec(), "its header"),
         (Vec::new(), "empty"),
-        (b"not a picture".to_vec(), "not an image"),
+        (b"not a picture".to_vec(), "no Radiance .hdr, OpenEXR, HDRE, KTX2, PNG, JPEG"),
         (b"#?RADIANCE\n\n-Y 99999999 +X 99999999\n".to_vec(), "limit"),
     ] {
         let error = load(&file, "room.hdre").expect_err(part).to_string();

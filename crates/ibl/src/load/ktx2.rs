@@ -1,0 +1,329 @@
+//! KTX 2.0: cube maps of float, half, shared-exponent or 8-bit texels, with their levels; also plain 2D pictures.
+//!
+//! Zstandard and zlib supercompression are undone; Basis Universal and block compression are refused by name. Of a cube
+//! whose key/values do not state each level's roughness (see `save::ktx2`) only level 0 is kept.
+
+use super::{Content, Fault, Limits, Picture, StoredLevels, StoredLobe, checked_texels, field, roughness_list};
+use crate::cube::Cube;
+use crate::equirect::Equirect;
+use crate::ktx2::{
+    HEADER_BYTES, IDENTIFIER, KEY_CONTENT, KEY_ORIENTATION, KEY_ROUGHNESS, LEVEL_ENTRY_BYTES, RGB9E5, RGBA16F, RGBA32F,
+    color_from_rgb9e5,
+};
+use crate::save::CubeContent;
+use half::f16;
+use halfvector_maps::color::linear_from_srgb;
+use std::io::Read;
+
+pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
+    let header = Header::parsed(bytes, limits)?;
+    let pairs = KeyValues::parsed(bytes)?;
+    if let Some(orientation) = pairs.text(KEY_ORIENTATION)
+        && orientation != "rd"
+    {
+        return Err(field(KEY_ORIENTATION, format!("\"{orientation}\" is not \"rd\", rows from the top; save it so")));
+    }
+    if header.faces == 1 {
+        let texels = header.texels(bytes, 0)?;
+        let map = Equirect { width: header.width, height: header.height, pixels: texels };
+        let low_dynamic_range = header.coding.low_dynamic_range();
+        return Ok(Content::Picture(Picture { map, low_dynamic_range, notes: Vec::new() }));
+    }
+    let mut notes = Vec::new();
+    if pairs.text(KEY_CONTENT) == Some(CubeContent::IrradianceOverPi.name()) {
+        notes.push("it holds diffuse irradiance, and is taken as if that were the light itself".to_owned());
+    }
+    let roughness = match pairs.text(KEY_ROUGHNESS) {
+        Some(text) => Some(roughness_list(text, header.levels.len()).map_err(|why| field(KEY_ROUGHNESS, why))?),
+        None => None,
+    };
+    let used = if roughness.is_some() { header.levels.len() } else { 1 };
+    let levels = (0..used)
+        .map(|level| Ok(Cube { size: (header.width >> level).max(1), texels: header.texels(bytes, level)? }))
+        .collect::<Result<_, Fault>>()?;
+    let lobe = roughness.map_or(StoredLobe::Unknown, StoredLobe::Ggx);
+    Ok(Content::Levels(StoredLevels { levels, lobe, irradiance_sh: None }, notes))
+}
+
+struct Header {
+    width: usize,
+    height: usize,
+    faces: usize,
+    coding: Coding,
+    compression: Compression,
+    /// Where each level lies in the file, level 0 first.
+    levels: Vec<(usize, usize)>,
+}
+
+#[derive(Clone, Copy)]
+enum Compression {
+    None,
+    Zstandard,
+    Zlib,
+}
+
+fn number(bytes: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]))
+}
+
+fn long(bytes: &[u8], at: usize) -> u64 {
+    u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]))
+}
+
+impl Header {
+    fn parsed(bytes: &[u8], limits: Limits) -> Result<Header, Fault> {
+        if !bytes.starts_with(&IDENTIFIER) && bytes.len() >= IDENTIFIER.len() {
+            let reason = if bytes[4..7] == *b" 11" {
+                "it is a KTX 1 file; convert it to KTX2"
+            } else {
+                "it is not that of KTX 2.0; was the file changed in transfer?"
+            };
+            return Err(field("identifier", reason));
+        }
+        if bytes.len() < HEADER_BYTES {
+            return Err(Fault::Truncated("its header".to_owned()));
+        }
+        let [vk_format, _type_size, width, height, depth, layers, faces, levels, scheme] =
+            std::array::from_fn(|i| number(bytes, 12 + 4 * i));
+        let coding = Coding::of(vk_format)?;
+        if depth != 0 {
+            return Err(field("pixelDepth", format!("{depth} where cube maps and pictures have 0")));
+        }
+        if layers > 1 {
+            return Err(field("layerCount", format!("{layers} cubes in one file; save one alone")));
+        }
+        if faces != 6 && faces != 1 {
+            return Err(field("faceCount", format!("{faces} is neither 6, a cube map, nor 1, a picture")));
+        }
+        if faces == 6 && width != height {
+            return Err(field("pixelHeight", format!("faces must be square and this says {width} x {height}")));
+        }
+        checked_texels(u64::from(width), u64::from(height), limits)?;
+        // 0 asks the reader to make the smaller levels; only the first is in the file.
+        let count = levels.max(1);
+        if count > width.max(height).ilog2() + 1 {
+            return Err(field("levelCount", format!("{levels} levels are more than {width} x {height} can have")));
+        }
+        let compression = match scheme {
+            0 => Compression::None,
+            2 => Compression::Zstandard,
+            3 => Compression::Zlib,
+            1 => return Err(field("supercompressionScheme", "1 (BasisLZ) is not read; save it uncompressed")),
+            other => {
+                return Err(field("supercompressionScheme", format!("{other} is not known; save it uncompressed")));
+            }
+        };
+        let mut header = Header {
+            width: width as usize,
+            height: height as usize,
+            faces: faces as usize,
+            coding,
+            compression,
+            levels: Vec::new(),
+        };
+        let all: u64 = (0..count as usize).map(|level| header.level_texels(level) as u64).sum();
+        checked_texels(all, 1, Limits { max_edge: u64::MAX, ..limits })?;
+        for level in 0..count as usize {
+            let entry = header.level_entry(bytes, level)?;
+            header.levels.push(entry);
+        }
+        Ok(header)
+    }
+
+    fn level_texels(&self, level: usize) -> usize {
+        self.faces * (self.width >> level).max(1) * (self.height >> level).max(1)
+    }
+
+    /// Where a level begins and ends, as the level index says, once that is found true.
+    fn level_entry(&self, bytes: &[u8], level: usize) -> Result<(usize, usize), Fault> {
+        let at = HEADER_BYTES + LEVEL_ENTRY_BYTES * level;
+        if bytes.len() < at + LEVEL_ENTRY_BYTES {
+            return Err(Fault::Truncated("its level index".to_owned()));
+        }
+        let [offset, length, whole] = [0, 8, 16].map(|i| long(bytes, at + i));
+        let needed = (self.level_texels(level) * self.coding.bytes()) as u64;
+        if whole != needed {
+            return Err(field(
+                format!("uncompressedByteLength of level {level}"),
+                format!("{whole} where the level has {needed}"),
+            ));
+        }
+        if matches!(self.compression, Compression::None) && length != needed {
+            return Err(field(
+                format!("byteLength of level {level}"),
+                format!("{length} where the level has {needed}"),
+            ));
+        }
+        match offset.checked_add(length) {
+            Some(end) if offset >= HEADER_BYTES as u64 && end <= bytes.len() as u64 => {
+                Ok((offset as usize, end as usize))
+            }
+            _ if offset < bytes.len() as u64 => Err(Fault::Truncated(format!("level {level}"))),
+            _ => Err(field(
+                format!("byteOffset of level {level}"),
+                format!("{offset} lies outside of the file of {} bytes", bytes.len()),
+            )),
+        }
+    }
+
+    /// The texels of a level, face by face.
+    fn texels(&self, bytes: &[u8], level: usize) -> Result<Vec<[f32; 3]>, Fault> {
+        let (start, end) = self.levels[level];
+        let stored = &bytes[start..end];
+        let needed = self.level_texels(level) * self.coding.bytes();
+        let inflated;
+        let plain = match self.compression {
+            Compression::None => stored,
+            Compression::Zstandard => {
+                inflated = zstandard(stored, needed).map_err(|why| damaged(level, &why))?;
+                inflated.as_slice()
+            }
+            Compression::Zlib => {
+                inflated = miniz_oxide::inflate::decompress_to_vec_zlib_with_limit(stored, needed)
+                    .map_err(|why| damaged(level, &why.to_string()))?;
+                inflated.as_slice()
+            }
+        };
+        if plain.len() != needed {
+            return Err(damaged(level, &format!("it becomes {} bytes and should become {needed}", plain.len())));
+        }
+        Ok(plain.chunks_exact(self.coding.bytes()).map(|texel| self.coding.decoded(texel)).collect())
+    }
+}
+
+fn damaged(level: usize, why: &str) -> Fault {
+    field(format!("level {level}"), format!("the compressed data are damaged ({why}); copy or save the file again"))
+}
+
+/// One Zstandard stream, up to a byte more than is needed.
+fn zstandard(stored: &[u8], needed: usize) -> Result<Vec<u8>, String> {
+    let decoder = ruzstd::decoding::StreamingDecoder::new(stored).map_err(|why| why.to_string())?;
+    let mut plain = Vec::new();
+    decoder.take(needed as u64 + 1).read_to_end(&mut plain).map_err(|why| why.to_string())?;
+    Ok(plain)
+}
+
+/// How a texel is stored.
+#[derive(Clone, Copy)]
+enum Coding {
+    Half {
+        channels: usize,
+    },
+    Float {
+        channels: usize,
+    },
+    Rgb9E5,
+    R11G11B10,
+    /// Eight bits a channel.
+    Codes {
+        channels: usize,
+        srgb: bool,
+        blue_first: bool,
+    },
+}
+
+impl Coding {
+    /// By VkFormat.
+    fn of(vk_format: u32) -> Result<Coding, Fault> {
+        let codes = |channels, srgb, blue_first| Ok(Coding::Codes { channels, srgb, blue_first });
+        match vk_format {
+            23 => codes(3, false, false),
+            29 => codes(3, true, false),
+            37 => codes(4, false, false),
+            43 => codes(4, true, false),
+            44 => codes(4, false, true),
+            50 => codes(4, true, true),
+            90 => Ok(Coding::Half { channels: 3 }),
+            RGBA16F => Ok(Coding::Half { channels: 4 }),
+            106 => Ok(Coding::Float { channels: 3 }),
+            RGBA32F => Ok(Coding::Float { channels: 4 }),
+            122 => Ok(Coding::R11G11B10),
+            RGB9E5 => Ok(Coding::Rgb9E5),
+            other => {
+                let kind = match other {
+                    0 => "Basis Universal or another format without a number",
+                    131..=146 => "BC block compression",
+                    147..=156 => "ETC2 or EAC block compression",
+                    157..=184 | 1_000_066_000..=1_000_066_013 => "ASTC block compression",
+                    _ => "a format of texels",
+                };
+                Err(field(
+                    "vkFormat",
+                    format!(
+                        "{other} ({kind}) is not read; save it as R16G16B16A16_SFLOAT (97), R32G32B32A32_SFLOAT (109) \
+                         or E5B9G9R9_UFLOAT_PACK32 (123)"
+                    ),
+                ))
+            }
+        }
+    }
+
+    fn bytes(self) -> usize {
+        match self {
+            Coding::Half { channels } => 2 * channels,
+            Coding::Float { channels } => 4 * channels,
+            Coding::Rgb9E5 | Coding::R11G11B10 => 4,
+            Coding::Codes { channels, .. } => channels,
+        }
+    }
+
+    fn low_dynamic_range(self) -> bool {
+        matches!(self, Coding::Codes { .. })
+    }
+
+    fn decoded(self, texel: &[u8]) -> [f32; 3] {
+        match self {
+            Coding::Half { .. } => {
+                std::array::from_fn(|i| f16::from_le_bytes([texel[2 * i], texel[2 * i + 1]]).to_f32())
+            }
+            Coding::Float { .. } => std::array::from_fn(|i| f32::from_bits(number(texel, 4 * i))),
+            Coding::Rgb9E5 => color_from_rgb9e5(number(texel, 0)),
+            Coding::R11G11B10 => {
+                let bits = number(texel, 0);
+                [small_float(bits & 2047, 6), small_float(bits >> 11 & 2047, 6), small_float(bits >> 22, 5)]
+            }
+            Coding::Codes { srgb, blue_first, .. } => {
+                let codes: [f32; 3] =
+                    std::array::from_fn(|i| f32::from(texel[if blue_first { 2 - i } else { i }]) / 255.0);
+                if srgb { linear_from_srgb(codes) } else { codes }
+            }
+        }
+    }
+}
+
+/// An unsigned float of five bits of exponent (bias 15, as half precision) above `mantissa_bits`: a half without its sign
+/// and lowest bits.
+fn small_float(bits: u32, mantissa_bits: u32) -> f32 {
+    f16::from_bits((bits << (10 - mantissa_bits)) as u16).to_f32()
+}
+
+/// The key/value data of a file.
+struct KeyValues<'a>(Vec<(&'a [u8], &'a [u8])>);
+
+impl<'a> KeyValues<'a> {
+    fn parsed(bytes: &'a [u8]) -> Result<KeyValues<'a>, Fault> {
+        let wrong = |what: &str, reason: &str| field(what, format!("{reason}; the header is damaged"));
+        let (start, length) = (number(bytes, 56) as usize, number(bytes, 60) as usize);
+        let mut rest = start
+            .checked_add(length)
+            .and_then(|end| bytes.get(start..end))
+            .ok_or_else(|| wrong("kvdByteOffset", "the key/values lie outside of the file"))?;
+        let mut pairs = Vec::new();
+        while rest.len() >= 4 {
+            let length = number(rest, 0) as usize;
+            let pair = rest[4..]
+                .get(..length)
+                .ok_or_else(|| wrong("keyAndValueByteLength", "a pair goes beyond their end"))?;
+            let end = pair.iter().position(|&b| b == 0).ok_or_else(|| wrong("keyAndValue", "a key does not end"))?;
+            pairs.push((&pair[..end], &pair[end + 1..]));
+            rest = rest.get(4 + length.next_multiple_of(4)..).unwrap_or_default();
+        }
+        Ok(KeyValues(pairs))
+    }
+
+    /// The text of a key, without the NUL that may end it.
+    fn text(&self, key: &str) -> Option<&'a str> {
+        let (_, value) = self.0.iter().find(|(found, _)| *found == key.as_bytes())?;
+        std::str::from_utf8(value).ok().map(|text| text.trim_end_matches('\0'))
+    }
+}
