@@ -1,6 +1,6 @@
 //! The lobes as zonal kernels: the numbers by which a convolution multiplies the harmonics of each degree.
 
-use crate::harmonics::{MAX_BAND, gauss_legendre};
+use crate::harmonics::gauss_legendre;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// k_l for l = 0 ..= band of the prefilter lobe with n = v = r: weight D_GGX(h) max(n.l, 0), normalised to k_0 = 1.
@@ -55,20 +55,17 @@ fn zonal_kernel(band: usize, width: f64, weight: impl Fn(f64, f64) -> f64) -> Ve
     kernel
 }
 
-/// The degree at which the series of the GGX lobe may end: there k_l is about exp(-14) of k_0.
+/// The degree at which the series of the GGX lobe may end: there k_l is about exp(-2 series_end) of k_0.
 ///
 /// Near its middle the lobe is (theta^2 + (2 alpha)^2)^-2, whose transform is x K_1(x), x = 2 alpha l. The lower bound
 /// is for the kink of wide lobes at the horizon, whose harmonics fall only like a power of l.
-pub(crate) fn ggx_band(alpha: f64) -> usize {
-    let band = 7.0 / alpha.max(1e-6);
+pub(crate) fn ggx_band(alpha: f64, series_end: f64) -> usize {
+    let band = series_end / alpha.max(1e-6);
     (band.ceil() as usize).max(MIN_BAND)
 }
 
 /// Degrees taken for every lobe, however wide.
 const MIN_BAND: usize = 192;
-
-/// The narrowest lobe whose series ends within [`MAX_BAND`].
-pub(crate) const MIN_ALPHA: f64 = 7.0 / MAX_BAND as f64;
 
 /// Rows of a grid on which cubic interpolation follows the lobe: the lobe is about 4 alpha wide, thus 16 rows or more.
 pub(crate) fn ggx_grid_rows(alpha: f64) -> usize {
@@ -92,7 +89,7 @@ mod tests {
     #[test]
     fn narrow_lobes_end() {
         for alpha in [0.01, 0.03] {
-            let band = ggx_band(alpha);
+            let band = ggx_band(alpha, 7.0);
             let k = ggx_kernel(alpha, band);
             assert!(k[band].abs() < 2e-5, "{alpha}: {}", k[band]);
             assert!(k[band / 8] > 0.1);

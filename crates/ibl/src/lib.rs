@@ -27,7 +27,7 @@ mod repair;
 mod resample;
 pub mod save;
 
-pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, bake};
+pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, Quality, bake, bake_with_progress};
 pub use builtin::{sky, studio, white};
 pub use cube::{Cube, direction_from_face, face_from_direction, texel_solid_angle};
 pub use dfg::{DFG_SIZE, DfgTable, Visibility, dfg, dfg_table, dfg_table_with};

@@ -4,23 +4,23 @@
 use crate::cube::{Cube, unit};
 use crate::environment::environment_sample;
 use crate::harmonics::Grid;
-use crate::kernel::{MIN_ALPHA, ggx_weight};
+use crate::kernel::ggx_weight;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Rings about the lobe's middle, and lookups on each.
 const RINGS: usize = 32;
 const SECTORS: usize = 12;
 
-/// Prefilters a cube with a GGX lobe (n = v = r) of 0 < `alpha` < [`MIN_ALPHA`]; `wide` is the same light prefiltered for
-/// [`MIN_ALPHA`].
+/// Prefilters a cube with a GGX lobe (n = v = r) of 0 < `alpha` < `wide_alpha`; `wide` is the same light prefiltered for
+/// `wide_alpha`.
 ///
 /// The tails of all GGX lobes are one, so the narrow lobe is the wide one plus a remainder without a tail. The remainder is
 /// looked up at its own quantiles, each in a level of the source whose texels are as large as the solid angle that the
 /// lookup stands for (Křivánek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling"); the quantiles are
 /// those of a fixed polar grid, turned from ring to ring, so nothing is random. Between its lookups light is smoothed over:
 /// close beside a lamp a hundred times brighter than the rest by 2 to 7 % rms, elsewhere by much less.
-pub(crate) fn narrow_lobe(source: &Cube, wide: &Grid, alpha: f64, size: usize) -> Cube {
-    let lobe = NarrowLobe::new(source, alpha);
+pub(crate) fn narrow_lobe(source: &Cube, wide: &Grid, alpha: f64, wide_alpha: f64, size: usize) -> Cube {
+    let lobe = NarrowLobe::new(source, alpha, wide_alpha);
     Cube::from_fn(size, |dir| lobe.at(wide, dir))
 }
 
@@ -32,14 +32,14 @@ struct NarrowLobe {
 }
 
 impl NarrowLobe {
-    fn new(source: &Cube, alpha: f64) -> NarrowLobe {
+    fn new(source: &Cube, alpha: f64, wide_alpha: f64) -> NarrowLobe {
         let mut pyramid = vec![source.clone()];
         while let Some(last) = pyramid.last().filter(|last| last.size > 1) {
             let next = last.halved();
             pyramid.push(next);
         }
         let texel = 4.0 * PI / (6 * source.size * source.size) as f64;
-        let (share_of_wide, rings) = remainder(alpha);
+        let (share_of_wide, rings) = remainder(alpha, wide_alpha);
         let samples = rings
             .iter()
             .enumerate()
@@ -79,7 +79,7 @@ struct Sample {
 
 /// The wide lobe's share of the narrow lobe, and the rings that stand for equal parts of the remainder: for each its angle
 /// from the middle and its solid angle.
-fn remainder(alpha: f64) -> (f64, Vec<(f64, f64)>) {
+fn remainder(alpha: f64, wide_alpha: f64) -> (f64, Vec<(f64, f64)>) {
     // Steps that are even near the middle, on the narrow lobe's scale, and grow with the angle further out.
     const STEPS: usize = 4096;
     let last = (FRAC_PI_2 / alpha).asinh();
@@ -91,8 +91,8 @@ fn remainder(alpha: f64) -> (f64, Vec<(f64, f64)>) {
         let (cos, half) = (theta.cos(), (theta / 2.0).sin());
         let area = 2.0 * PI * theta.sin() * (end - start);
         let weight = |alpha: f64| area * ggx_weight(alpha, cos, 2.0 * half * half);
-        wide += weight(MIN_ALPHA);
-        sums.push(sums[i] + weight(alpha) - weight(MIN_ALPHA));
+        wide += weight(wide_alpha);
+        sums.push(sums[i] + weight(alpha) - weight(wide_alpha));
     }
     let whole = sums[STEPS];
     let angle_at = |share: f64| angle(sums.partition_point(|&sum| sum < share * whole).min(STEPS));
@@ -122,6 +122,8 @@ mod tests {
     use crate::kernel::{ggx_grid_rows, ggx_kernel};
     use crate::resample::cube_from_equirect;
 
+    const MIN_ALPHA: f64 = 7.0 / MAX_BAND as f64;
+
     /// Against fine polar quadrature over the same cube: a smooth picture with lamps a hundred times brighter in it, looked
     /// at everywhere and close beside the lamps.
     #[test]
@@ -137,7 +139,7 @@ mod tests {
         let spectrum = Spectrum::from_equirect(&map, MAX_BAND);
         let wide = spectrum.synthesized(&ggx_kernel(MIN_ALPHA, MAX_BAND), ggx_grid_rows(MIN_ALPHA));
         for alpha in [0.0012, 0.0025, 0.006] {
-            let lobe = NarrowLobe::new(&source, alpha);
+            let lobe = NarrowLobe::new(&source, alpha, MIN_ALPHA);
             let mut errors = Vec::new();
             for k in 0..24 {
                 // From 0 to 24 texels beside a lamp.

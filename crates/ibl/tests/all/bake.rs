@@ -2,7 +2,7 @@
 
 use halfvector_ibl::environment::{dfg_from_table, environment_sample, irradiance_sh2};
 use halfvector_ibl::{
-    BakeOptions, Cube, DFG_SIZE, Equirect, LevelMap, Visibility, bake, cube_from_equirect, dfg, dfg_table,
+    BakeOptions, Cube, DFG_SIZE, Equirect, LevelMap, Visibility, bake, bake_with_progress, cube_from_equirect, dfg, dfg_table,
     direction_from_equirect, direction_from_face, face_from_direction, sky, studio, texel_solid_angle, white,
 };
 use std::f64::consts::PI;
@@ -194,8 +194,15 @@ fn any_options() {
             LevelMap::Listed(vec![f32::NAN, -1.0, 9.0, 0.3]),
         ] {
             for levels in [None, Some(0), Some(3)] {
-                let options =
-                    BakeOptions { size, levels, level_map: level_map.clone(), decode_report: true, irradiance_size: 0 };
+                let level_map = level_map.clone();
+                let options = BakeOptions {
+                    size,
+                    levels,
+                    level_map,
+                    decode_report: true,
+                    irradiance_size: 0,
+                    ..BakeOptions::default()
+                };
                 let baked = bake(&environment, &options);
                 assert_eq!(baked.radiance.len(), baked.roughness.len());
                 for (i, level) in baked.radiance.iter().enumerate() {
@@ -270,4 +277,13 @@ fn dfg_table_is_accurate() {
                 .all(|v| (0.0..=1.0).contains(v))
         );
     }
+}
+
+/// Progress starts at 0, never falls and ends at 1.
+#[test]
+fn progress_rises() {
+    let mut seen = Vec::new();
+    bake_with_progress(&white(), &small(32), &mut |share| seen.push(share));
+    assert!(seen.len() > 3 && seen[0] == 0.0 && seen.last() == Some(&1.0), "{seen:?}");
+    assert!(seen.is_sorted(), "{seen:?}");
 }
