@@ -1,4 +1,6 @@
 //! Which environment surrounds a scene, and what is seen behind the objects. Baking it is not done here.
+//!
+//! An environment may be six files, one for each face of a cube: a folder of them, or a name with `%s` where they differ.
 
 use std::fs::File;
 use std::io::Read;
@@ -18,7 +20,8 @@ pub enum EnvironmentSource {
     Studio,
     /// A clear sky with a sun.
     Sky,
-    /// An `.hdr`, `.exr` or `.hdre` file, or an ordinary image.
+    /// An `.hdr`, `.exr`, `.hdre` or `.ktx2` file, or an ordinary image; a folder of six faces; or a path whose file name
+    /// has `%s` in place of the name of a face: see [`FACE_NAMES`].
     File(PathBuf),
     /// Black.
     None,
@@ -43,13 +46,84 @@ impl EnvironmentSource {
             EnvironmentSource::Studio => Ok(Some(halfvector_ibl::studio())),
             EnvironmentSource::Sky => Ok(Some(halfvector_ibl::sky())),
             EnvironmentSource::None => Ok(None),
-            EnvironmentSource::File(path) => {
-                let bytes = read_limited(path, MAX_FILE_BYTES)
-                    .map_err(|reason| EnvironmentError::Read { path: path.clone(), reason })?;
-                halfvector_ibl::load(&bytes, &path.display().to_string()).map(Some).map_err(EnvironmentError::Content)
-            }
+            EnvironmentSource::File(path) => match face_files(path)? {
+                Some(faces) => load_six(&faces).map(Some),
+                None => {
+                    let bytes = read(path)?;
+                    halfvector_ibl::load(&bytes, &path.display().to_string())
+                        .map(Some)
+                        .map_err(EnvironmentError::Content)
+                }
+            },
         }
     }
+}
+
+/// How the files of the faces +X -X +Y -Y +Z -Z are named: either all the one way or all the other.
+pub const FACE_NAMES: [[&str; 6]; 2] =
+    [["px", "nx", "py", "ny", "pz", "nz"], ["posx", "negx", "posy", "negy", "posz", "negz"]];
+
+/// What stands for the name of a face in a path.
+const PATTERN: &str = "%s";
+
+/// The six files that a path means; `None` when it is one file.
+fn face_files(path: &Path) -> Result<Option<[PathBuf; 6]>, EnvironmentError> {
+    let faces = |reason: String| EnvironmentError::Faces { path: path.to_owned(), reason };
+    if path.is_dir() {
+        let unreadable =
+            |error: std::io::Error| EnvironmentError::Read { path: path.to_owned(), reason: error.to_string() };
+        let mut files = Vec::new();
+        for entry in std::fs::read_dir(path).map_err(unreadable)? {
+            files.push(entry.map_err(unreadable)?.path());
+        }
+        files.sort();
+        let found = FACE_NAMES.iter().find_map(|names| faces_among(&files, names));
+        return found.map(Some).ok_or_else(|| faces("the folder has not just one file for each".to_owned()));
+    }
+    let Some(name) = path.file_name().and_then(|name| name.to_str()).filter(|name| name.contains(PATTERN)) else {
+        return Ok(None);
+    };
+    // A file may really be called so.
+    if path.is_file() {
+        return Ok(None);
+    }
+    let named = |names: &[&str; 6]| names.map(|face| path.with_file_name(name.replace(PATTERN, face)));
+    let sets = FACE_NAMES.each_ref().map(named);
+    // The set of which the most is there: what lacks of it is told.
+    let missing = |set: &[PathBuf; 6]| set.iter().filter(|file| !file.is_file()).count();
+    let Some(best) = sets.into_iter().min_by_key(missing) else { return Ok(None) };
+    match best.iter().find(|file| !file.is_file()) {
+        Some(file) => Err(faces(format!("there is no file {}", file.display()))),
+        None => Ok(Some(best)),
+    }
+}
+
+/// The one file for each name: the last word of its name without the extension, in capitals or not.
+fn faces_among(files: &[PathBuf], names: &[&str; 6]) -> Option<[PathBuf; 6]> {
+    let is_face = |file: &Path, face: &str| {
+        let stem = file.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
+        stem.strip_suffix(face).is_some_and(|before| !before.ends_with(char::is_alphanumeric))
+    };
+    let mut found = Vec::new();
+    for face in names {
+        let mut matching = files.iter().filter(|file| is_face(file, face));
+        found.extend(matching.next().cloned());
+        if matching.next().is_some() {
+            return None;
+        }
+    }
+    found.try_into().ok()
+}
+
+fn load_six(files: &[PathBuf; 6]) -> Result<LoadedEnvironment, EnvironmentError> {
+    let bytes = files.iter().map(|file| read(file)).collect::<Result<Vec<_>, _>>()?;
+    let names = files.each_ref().map(|file| file.display().to_string());
+    halfvector_ibl::load_faces(std::array::from_fn(|i| (bytes[i].as_slice(), names[i].as_str())))
+        .map_err(EnvironmentError::Content)
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, EnvironmentError> {
+    read_limited(path, MAX_FILE_BYTES).map_err(|reason| EnvironmentError::Read { path: path.to_owned(), reason })
 }
 
 /// Why an environment was not read.
@@ -61,6 +135,17 @@ pub enum EnvironmentError {
         /// The file.
         path: PathBuf,
         /// Why.
+        reason: String,
+    },
+    /// A folder or pattern does not name six faces.
+    #[error(
+        "the environment {} is no set of six faces: {reason}; end their names with px nx py ny pz nz or posx negx posy \
+         negy posz negz", path.display()
+    )]
+    Faces {
+        /// The folder or pattern.
+        path: PathBuf,
+        /// What is missing.
         reason: String,
     },
     /// Its content was refused.
@@ -89,4 +174,30 @@ pub(crate) fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
         return Err(format!("it is larger than {} MiB", limit >> 20));
     }
     Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn six_faces_by_folder_and_by_pattern() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let source = |name: &str| EnvironmentSource::parse(name, folder.path());
+        let error = |name: &str| source(name).load().map(|_| ()).expect_err("incomplete").to_string();
+        for (k, face) in FACE_NAMES[1].into_iter().enumerate() {
+            assert!(error("").contains("six faces") && error("room_%s.hdr").contains(&format!("room_{face}.hdr")));
+            let file = [b"#?RADIANCE\n\n-Y 1 +X 1\n".as_slice(), &[k as u8 + 1, 0, 0, 136]].concat();
+            std::fs::write(folder.path().join(format!("room_{face}.hdr")), file).expect("written");
+        }
+        std::fs::write(folder.path().join("readme.txt"), "six faces").expect("written");
+        for name in ["", "room_%s.hdr"] {
+            let loaded = source(name).load().expect("six faces").expect("an environment");
+            let halfvector_ibl::Source::Levels(stored) = loaded.source else { panic!("a cube was expected") };
+            let reds: Vec<f32> = stored.levels[0].texels.iter().map(|texel| texel[0]).collect();
+            assert_eq!(reds, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        }
+        std::fs::write(folder.path().join("other_posx.hdr"), "").expect("written");
+        assert!(error("").contains("just one file"));
+    }
 }

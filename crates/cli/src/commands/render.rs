@@ -34,7 +34,7 @@ pub(crate) struct RenderArgs {
     /// What wears the material: sphere, plane, cube, torus, shaderball, or a .glb or .gltf file
     #[arg(long, value_name = "MESH", value_parser = parse_mesh)]
     mesh: Option<MeshSource>,
-    /// The environment: white, studio, sky, none, or a .hdr, .exr or .hdre file
+    /// The environment: white, studio, sky, none, a .hdr, .exr, .hdre, .ktx2, .png or .jpg file, or six faces (see bake)
     #[arg(long, value_name = "ENV", value_parser = parse_environment)]
     env: Option<EnvironmentSource>,
     /// Turns the environment counter-clockwise seen from above, in degrees
@@ -107,7 +107,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
 pub(crate) fn draw(scene: &Scene, size: [u32; 2], side: u32, output: &PictureFile) -> Result<(), Failure> {
     let failed =
         |error: halfvector_render::RenderError| Failure::input("the picture could not be drawn").because(error);
-    let loaded = load(scene)?;
+    let loaded = load(&scene.environment)?;
     let renderer = Renderer::new().map_err(failed)?;
     let environment = loaded.map(|loaded| bake(scene, &loaded));
     let [width, height] = size;

@@ -71,7 +71,7 @@ fn read_part(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
 fn stored_roughness(header: &Header) -> Option<String> {
     let mut attributes = header.own_attributes.other.iter();
     attributes.find_map(|(name, value)| match value {
-        AttributeValue::Text(text) if *name == KEY_ROUGHNESS => Some(text.to_string()),
+        AttributeValue::Text(text) if *name == *KEY_ROUGHNESS => Some(text.to_string()),
         _ => None,
     })
 }

@@ -5,6 +5,7 @@ mod albedo;
 mod bake;
 mod files;
 mod occlusion;
+mod save;
 mod truth;
 
 use std::path::PathBuf;

@@ -1,0 +1,343 @@
+//! `halfvector bake`: an environment, prefiltered for real-time light, as files.
+
+use std::path::PathBuf;
+
+use halfvector_ibl::save::{CubeContent, CubeLevels, HDRE_LEVELS, SaveError, TexelFormat, hdre_face};
+use halfvector_ibl::{
+    BakeOptions, BakedEnvironment, Cube, LevelMap, LoadedEnvironment, MAX_SIZE, Quality, Source, StoredLevels,
+    StoredLobe, save,
+};
+use halfvector_scene::EnvironmentSource;
+
+use crate::environment::{bake_with_bar, ggx_roughness, load};
+use crate::failure::Failure;
+use crate::harmonics_file;
+use crate::output::{check_place, note, write_file};
+use crate::set_value::numbers;
+
+/// Prefilters an environment for real-time light: a cube map whose levels are filtered for a rising roughness.
+///
+/// The environment is an equirectangular map, a cross or strip of cube faces, six faces, or a file of cube levels; its
+/// shape and first bytes tell which. Levels that are already what is asked for are kept as they are.
+#[derive(clap::Args, Debug)]
+#[command(after_help = "Examples:
+  halfvector bake room.hdr -o room.ktx2 --irradiance room-diffuse.ktx2 --sh room-sh.json
+  halfvector bake studio -o studio.ktx2 --size 256 --roughness 0,0.2,0.4,0.6,0.8,1
+  halfvector bake faces/room_%s.png -o room.hdre
+
+Six faces: a folder, or a name with %s in place of px nx py ny pz nz or of posx negx posy negy posz negz.")]
+pub(crate) struct BakeArgs {
+    /// The environment: a .hdr, .exr, .hdre, .ktx2, .png or .jpg file, six faces, or white, studio or sky
+    #[arg(value_name = "ENV", value_parser = parse_environment)]
+    environment: EnvironmentSource,
+    /// The prefiltered levels: .ktx2 for engines, .hdre (2.0, six levels), or .exr, a strip of faces for each level
+    #[arg(short, long, value_name = "OUT", value_parser = parse_cube_file)]
+    output: CubeFile,
+    /// Texels along an edge of a face of level 0; each further level has half as many
+    /// [default: 512, or as many as cube faces in ENV have]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_SIZE as i64))]
+    size: Option<u32>,
+    /// Number of levels
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=14), conflicts_with = "roughness")]
+    levels: Option<u32>,
+    /// The perceptual roughness of each level, rising, 0 to 1
+    #[arg(long, value_name = "R0,R1,...", value_parser = parse_roughness)]
+    roughness: Option<Roughness>,
+    /// How exact, and how long it takes: preview, default, best
+    #[arg(long, value_name = "NAME", default_value = "default", value_parser = parse_quality)]
+    quality: Quality,
+    /// How a KTX2 file stores a texel: rgba16f, rgba32f, or rgb9e5, the smallest
+    #[arg(long, value_name = "NAME", default_value = "rgba16f", value_parser = parse_texels)]
+    texels: TexelFormat,
+    /// Also writes diffuse irradiance over pi as a cube of 64 texels, .ktx2 or .exr
+    #[arg(long, value_name = "OUT2", value_parser = parse_cube_file)]
+    irradiance: Option<CubeFile>,
+    /// Also writes the spherical harmonics of the light and of its irradiance
+    #[arg(long, value_name = "FILE.json")]
+    sh: Option<PathBuf>,
+    /// Who computes: auto or cpu
+    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = parse_backend)]
+    backend: Backend,
+}
+
+/// Who computes. With one backend there is no choice yet: both mean the CPU.
+#[derive(Clone, Copy, Debug)]
+enum Backend {
+    Auto,
+    Cpu,
+}
+
+/// A file of cube levels to write.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct CubeFile {
+    path: PathBuf,
+    format: CubeFormat,
+}
+
+/// What the extension of a [`CubeFile`] says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum CubeFormat {
+    Ktx2,
+    Hdre,
+    Exr,
+}
+
+/// The values of `--roughness`.
+#[derive(Clone, Debug, PartialEq)]
+struct Roughness(Vec<f32>);
+
+/// Texels along an edge of level 0 when neither the user nor the file says.
+const DEFAULT_SIZE: usize = 512;
+
+/// Bytes that readers of HDRE refuse.
+const HDRE_MAX_BYTES: usize = 60_000_000;
+
+/// Runs the command.
+pub(crate) fn run(args: &BakeArgs) -> Result<u8, Failure> {
+    // Both mean the same as long as there is no other backend.
+    let (Backend::Auto | Backend::Cpu) = args.backend;
+    check_files(args)?;
+    let loaded = load(&args.environment)?.ok_or_else(|| {
+        Failure::usage("`none` is no environment: there is nothing to bake").try_to("a file, or white, studio or sky")
+    })?;
+    let file = |file: &CubeFile, bytes: Result<Vec<u8>, SaveError>| {
+        let failed = |error| Failure::input("the levels could not be written").at(&file.path).because(error);
+        bytes.map(|bytes| (file.path.clone(), bytes)).map_err(failed)
+    };
+
+    let plan = Plan::new(args, &loaded)?;
+    let kept = hdre_to_hdre(args, &loaded);
+    let mut files = Vec::new();
+    let mut said = "the file's own six levels, kept as they are; --roughness filters them anew".to_owned();
+    if let Some(stored) = kept {
+        files.push(file(&args.output, save::hdre(&stored.levels, stored.irradiance_sh.as_ref()))?);
+    }
+    if kept.is_none() || args.irradiance.is_some() || args.sh.is_some() {
+        let baked = bake_with_bar(&loaded, &plan.options);
+        if kept.is_none() {
+            let (levels, roughness) = plan.levels(&baked);
+            let cube = CubeLevels { levels: &levels, roughness, content: CubeContent::Radiance };
+            files.push(file(&args.output, coded(args.output.format, cube, args.texels, &baked))?);
+            let numbers: Vec<String> = roughness.iter().map(|r| format!("{r:.3}")).collect();
+            said = format!("{} texels, {} levels for roughness {}", levels[0].size, levels.len(), numbers.join(" "));
+        }
+        if let Some(output) = &args.irradiance {
+            let levels = std::slice::from_ref(&baked.irradiance_over_pi);
+            let cube = CubeLevels { levels, roughness: &[], content: CubeContent::IrradianceOverPi };
+            files.push(file(output, coded(output.format, cube, args.texels, &baked))?);
+        }
+        if let Some(path) = &args.sh {
+            files.push((path.clone(), harmonics_file::text(&baked.irradiance_sh).into_bytes()));
+        }
+    }
+    if args.output.format == CubeFormat::Hdre && files[0].1.len() > HDRE_MAX_BYTES {
+        note("note: readers of HDRE refuse files of more than 60 MB, and this one is larger; choose a smaller --size");
+    }
+    for (path, bytes) in &files {
+        write_file(path, bytes)?;
+    }
+    note(format_args!("{}: {said}", args.output.path.display()));
+    for (path, _) in &files[1..] {
+        note(format_args!("{}", path.display()));
+    }
+    Ok(0)
+}
+
+/// Refuses places that cannot be written to, and one place for two files.
+fn check_files(args: &BakeArgs) -> Result<(), Failure> {
+    let mut paths = vec![&args.output.path];
+    paths.extend(args.irradiance.as_ref().map(|file| &file.path));
+    paths.extend(&args.sh);
+    for (k, path) in paths.iter().enumerate() {
+        check_place(path)?;
+        if paths[..k].contains(path) {
+            return Err(Failure::usage("two results cannot be one file").at(path).try_to("a name for each"));
+        }
+    }
+    if let Some(file) = args.irradiance.as_ref().filter(|file| file.format == CubeFormat::Hdre) {
+        return Err(Failure::usage("irradiance cannot be an .hdre file")
+            .at(&file.path)
+            .because("the format has six levels, and irradiance is one")
+            .try_to("a .ktx2 or .exr file"));
+    }
+    Ok(())
+}
+
+/// The levels of an HDRE file when an HDRE file is wanted and nothing asks for others.
+fn hdre_to_hdre<'a>(args: &BakeArgs, loaded: &'a LoadedEnvironment) -> Option<&'a StoredLevels> {
+    let Source::Levels(stored) = &loaded.source else { return None };
+    let same_size = args.size.is_none_or(|size| size as usize == stored.levels[0].size);
+    let six = args.levels.is_none_or(|levels| levels as usize == HDRE_LEVELS) && args.roughness.is_none();
+    let plain = matches!(stored.lobe, StoredLobe::Hdre { version } if version <= 2.0);
+    (args.output.format == CubeFormat::Hdre && plain && same_size && six).then_some(stored)
+}
+
+/// What is baked, and how the levels of the file come from it.
+struct Plan {
+    options: BakeOptions,
+    /// Texels along an edge of each level of the file.
+    faces: Vec<usize>,
+    /// Levels of the bake before the file's first.
+    skipped: usize,
+}
+
+impl Plan {
+    fn new(args: &BakeArgs, loaded: &LoadedEnvironment) -> Result<Plan, Failure> {
+        let stored = ggx_roughness(loaded).filter(|roughness| roughness.len() > 1);
+        let stored_size = match &loaded.source {
+            Source::Levels(stored) => Some(stored.levels[0].size),
+            Source::Equirect(_) => None,
+        };
+        let size = args.size.map(|size| size as usize).or(stored_size).unwrap_or(DEFAULT_SIZE).min(MAX_SIZE);
+        let plain = BakeOptions { size, quality: args.quality, ..BakeOptions::default() };
+        if args.output.format == CubeFormat::Hdre {
+            return Plan::hdre(args, plain);
+        }
+        let asked = match (&args.roughness, args.levels, stored) {
+            (Some(Roughness(list)), ..) => Some(list.clone()),
+            // The file's own, when nothing else is asked for.
+            (None, None, Some(stored)) => Some(stored.to_vec()),
+            (None, ..) => None,
+        };
+        let most = size.ilog2() as usize + 1;
+        let count = asked.as_ref().map_or(args.levels.unwrap_or(1) as usize, Vec::len);
+        if count > most {
+            return Err(Failure::usage(format!("{count} levels are more than faces of {size} texels have"))
+                .because(format!("each level has half of the texels along an edge, so that there are {most} at most"))
+                .try_to("fewer levels, or a larger --size"));
+        }
+        let faces = (0..most).map(|level| size >> level).collect();
+        let Some(mut list) = asked else {
+            let options = BakeOptions { levels: args.levels.map(|levels| levels as usize), ..plain };
+            return Ok(Plan { options, faces, skipped: 0 });
+        };
+        // The first level of a bake is the environment itself: one that is not comes second, of a cube twice as large.
+        let skipped = usize::from(list[0] > 0.0);
+        if skipped == 1 {
+            list.insert(0, 0.0);
+        }
+        let options = BakeOptions { size: size << skipped, level_map: LevelMap::Listed(list), ..plain };
+        Ok(Plan { options, faces, skipped })
+    }
+
+    /// Six levels for the roughness at which its readers look each up, made larger where the format's smallest are.
+    fn hdre(args: &BakeArgs, plain: BakeOptions) -> Result<Plan, Failure> {
+        let wrong = |what: String| {
+            Err(Failure::usage(what)
+                .at(&args.output.path)
+                .because("an HDRE file always has six levels")
+                .try_to("--roughness with six values, or a .ktx2 file"))
+        };
+        let list = match &args.roughness {
+            Some(Roughness(list)) => list.clone(),
+            None => (0..HDRE_LEVELS).map(|level| level as f32 / (HDRE_LEVELS - 1) as f32).collect(),
+        };
+        let count = args.levels.map_or(list.len(), |levels| levels as usize);
+        if count != HDRE_LEVELS {
+            return wrong(format!("{count} levels cannot be an .hdre file"));
+        }
+        if list[0] > 0.0 {
+            return wrong("level 0 of an .hdre file is the environment itself, of roughness 0".to_owned());
+        }
+        let size = plain.size;
+        if size < hdre_face(size, 0) {
+            return wrong(format!("faces of {size} texels are smaller than the 8 that the format begins with"));
+        }
+        let faces = (0..HDRE_LEVELS).map(|level| hdre_face(size, level)).collect();
+        let options =
+            BakeOptions { size: size.max(8 << (HDRE_LEVELS - 1)), level_map: LevelMap::Listed(list), ..plain };
+        Ok(Plan { options, faces, skipped: 0 })
+    }
+
+    /// The levels of the file and the roughness of each.
+    fn levels<'a>(&self, baked: &'a BakedEnvironment) -> (Vec<Cube>, &'a [f32]) {
+        let levels = baked.radiance[self.skipped..].iter().zip(&self.faces).map(|(level, &size)| level.resized(size));
+        (levels.collect(), &baked.roughness[self.skipped..])
+    }
+}
+
+fn coded(
+    format: CubeFormat,
+    cube: CubeLevels<'_>,
+    texels: TexelFormat,
+    baked: &BakedEnvironment,
+) -> Result<Vec<u8>, SaveError> {
+    match format {
+        CubeFormat::Ktx2 => save::ktx2(cube, texels),
+        CubeFormat::Hdre => save::hdre(cube.levels, Some(&baked.irradiance_sh)),
+        CubeFormat::Exr => save::exr(cube),
+    }
+}
+
+fn parse_environment(text: &str) -> Result<EnvironmentSource, String> {
+    Ok(EnvironmentSource::parse(text, std::path::Path::new("")))
+}
+
+fn parse_cube_file(text: &str) -> Result<CubeFile, String> {
+    let path = PathBuf::from(text);
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    let format = match extension.as_deref() {
+        Some("ktx2") => CubeFormat::Ktx2,
+        Some("hdre") => CubeFormat::Hdre,
+        Some("exr") => CubeFormat::Exr,
+        _ => return Err("the file name must end in .ktx2, .hdre or .exr".to_owned()),
+    };
+    Ok(CubeFile { path, format })
+}
+
+fn parse_roughness(text: &str) -> Result<Roughness, String> {
+    let list = numbers(text)?;
+    let rising = list.windows(2).all(|pair| pair[0] < pair[1]);
+    if list.is_empty() || list.len() > 14 || !rising || !list.iter().all(|r| (0.0..=1.0).contains(r)) {
+        return Err("write 1 to 14 numbers that rise within 0 to 1, such as 0,0.25,0.5,1".to_owned());
+    }
+    Ok(Roughness(list))
+}
+
+fn parse_quality(text: &str) -> Result<Quality, String> {
+    match text {
+        "preview" => Ok(Quality::Preview),
+        "default" => Ok(Quality::Default),
+        "best" => Ok(Quality::Best),
+        _ => Err("the qualities are preview, default and best".to_owned()),
+    }
+}
+
+fn parse_texels(text: &str) -> Result<TexelFormat, String> {
+    match text {
+        "rgba16f" => Ok(TexelFormat::Rgba16F),
+        "rgba32f" => Ok(TexelFormat::Rgba32F),
+        "rgb9e5" => Ok(TexelFormat::Rgb9E5),
+        _ => Err("the formats of texels are rgba16f, rgba32f and rgb9e5".to_owned()),
+    }
+}
+
+fn parse_backend(text: &str) -> Result<Backend, String> {
+    match text {
+        "auto" => Ok(Backend::Auto),
+        "cpu" => Ok(Backend::Cpu),
+        "gpu" => Err("bakes do not run on the GPU yet; auto and cpu do the same work on the CPU".to_owned()),
+        _ => Err("the backends are auto and cpu".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roughness_rises_within_its_range() {
+        assert_eq!(parse_roughness("0,0.5,1"), Ok(Roughness(vec![0.0, 0.5, 1.0])));
+        assert_eq!(parse_roughness("0.4"), Ok(Roughness(vec![0.4])));
+        for wrong in ["", "0,0", "1,0", "-0.1,1", "0,2", "0,nan", "a", "0,.1,.15,.2,.3,.35,.4,.45,.5,.6,.65,.7,.8,.9,1"]
+        {
+            assert!(parse_roughness(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn formats_are_told_by_the_extension() {
+        assert_eq!(parse_cube_file("a.b/c.KTX2").map(|file| file.format), Ok(CubeFormat::Ktx2));
+        assert!(parse_cube_file("a.png").is_err() && parse_cube_file("ktx2").is_err());
+    }
+}
