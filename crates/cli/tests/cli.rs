@@ -2,6 +2,9 @@
 //! Pictures need a GPU (a software one will do): without one those parts are skipped with a printed line, and fail when
 //! `HALFVECTOR_REQUIRE_GPU=1`.
 
+#[path = "cli/bake.rs"]
+mod bake;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 

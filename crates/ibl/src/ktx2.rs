@@ -23,6 +23,12 @@ pub(crate) const KEY_CONTENT: &str = "halfvector.content";
 /// Key of each level's perceptual roughness, as text: numbers between commas, level 0 first.
 pub(crate) const KEY_ROUGHNESS: &str = "halfvector.roughness";
 
+/// Key that says what alpha is when it is not 1.
+pub(crate) const KEY_ALPHA: &str = "halfvector.alpha";
+
+/// The value of [`KEY_ALPHA`]: how log2(red + green + blue) changes from level to level, as a derivative.
+pub(crate) const ALPHA_SLOPE: &str = "slope by level of log2(red + green + blue)";
+
 /// VK_FORMAT_R16G16B16A16_SFLOAT.
 pub(crate) const RGBA16F: u32 = 97;
 /// VK_FORMAT_R32G32B32A32_SFLOAT.

@@ -46,7 +46,7 @@ pub enum Format {
     Hdre,
     /// KTX 2.0.
     Ktx2,
-    /// An ordinary image: PNG, JPEG, TIFF, WebP, TGA, BMP.
+    /// An ordinary image: PNG, JPEG, TIFF, WebP, TGA, BMP, QOI.
     Ldr,
 }
 
@@ -88,6 +88,8 @@ pub struct StoredLevels {
     pub levels: Vec<Cube>,
     /// What the further levels are filtered with.
     pub lobe: StoredLobe,
+    /// See [`CubeLevels::slope`](crate::save::CubeLevels::slope); empty when the file has none.
+    pub slope: Vec<Vec<f32>>,
     /// Coefficients of [`irradiance_sh2`](crate::environment::irradiance_sh2) from the file, turned like the faces.
     pub irradiance_sh: Option<[[f32; 3]; 9]>,
 }
@@ -109,7 +111,7 @@ pub enum StoredLobe {
 impl StoredLevels {
     /// A cube without further levels.
     pub fn from_cube(cube: Cube) -> StoredLevels {
-        StoredLevels { levels: vec![cube], lobe: StoredLobe::Unknown, irradiance_sh: None }
+        StoredLevels { levels: vec![cube], lobe: StoredLobe::Unknown, slope: Vec::new(), irradiance_sh: None }
     }
 
     /// Whether the levels are GGX for just these values of roughness, up to what a text of a file rounds off.

@@ -39,8 +39,28 @@ pub struct CubeLevels<'a> {
     pub levels: &'a [Cube],
     /// The perceptual roughness, 0..1, of each level; as many as there are levels for radiance, none for irradiance.
     pub roughness: &'a [f32],
+    /// For each level and texel, how log2(red + green + blue) changes from level to level, as a derivative; empty when it
+    /// is not known. It is stored as alpha where a format has one, and alpha is 1 else.
+    pub slope: &'a [Vec<f32>],
     /// What the texels are.
     pub content: CubeContent,
+}
+
+impl<'a> CubeLevels<'a> {
+    /// Radiance prefiltered for these values of roughness, one for each level.
+    pub fn radiance(levels: &'a [Cube], roughness: &'a [f32]) -> CubeLevels<'a> {
+        CubeLevels { levels, roughness, slope: &[], content: CubeContent::Radiance }
+    }
+
+    /// Diffuse irradiance over pi.
+    pub fn irradiance_over_pi(cube: &'a Cube) -> CubeLevels<'a> {
+        CubeLevels {
+            levels: std::slice::from_ref(cube),
+            roughness: &[],
+            slope: &[],
+            content: CubeContent::IrradianceOverPi,
+        }
+    }
 }
 
 /// Why levels cannot be written in a format.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use halfvector_ibl::save::{CubeContent, CubeLevels, HDRE_LEVELS, SaveError, TexelFormat, hdre_face};
+use halfvector_ibl::save::{CubeLevels, HDRE_LEVELS, SaveError, TexelFormat, hdre_face};
 use halfvector_ibl::{
     BakeOptions, BakedEnvironment, Cube, LevelMap, LoadedEnvironment, MAX_SIZE, Quality, Source, StoredLevels,
     StoredLobe, save,
@@ -116,14 +116,13 @@ pub(crate) fn run(args: &BakeArgs) -> Result<u8, Failure> {
         let baked = bake_with_bar(&loaded, &plan.options);
         if kept.is_none() {
             let (levels, roughness) = plan.levels(&baked);
-            let cube = CubeLevels { levels: &levels, roughness, content: CubeContent::Radiance };
+            let cube = CubeLevels::radiance(&levels, roughness);
             files.push(file(&args.output, coded(args.output.format, cube, args.texels, &baked))?);
             let numbers: Vec<String> = roughness.iter().map(|r| format!("{r:.3}")).collect();
             said = format!("{} texels, {} levels for roughness {}", levels[0].size, levels.len(), numbers.join(" "));
         }
         if let Some(output) = &args.irradiance {
-            let levels = std::slice::from_ref(&baked.irradiance_over_pi);
-            let cube = CubeLevels { levels, roughness: &[], content: CubeContent::IrradianceOverPi };
+            let cube = CubeLevels::irradiance_over_pi(&baked.irradiance_over_pi);
             files.push(file(output, coded(output.format, cube, args.texels, &baked))?);
         }
         if let Some(path) = &args.sh {

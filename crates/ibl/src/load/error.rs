@@ -53,7 +53,7 @@ pub enum LoadError {
     /// The bytes start like no format that is read here.
     #[error(
         "{file}: not an environment that can be read here: it starts like no Radiance .hdr, OpenEXR, HDRE, KTX2, PNG, JPEG, \
-         TIFF, WebP, TGA or BMP file; convert it to one of these"
+         TIFF, WebP, TGA, BMP or QOI file; convert it to one of these"
     )]
     UnknownFormat {
         /// The file's name, as the caller gave it.

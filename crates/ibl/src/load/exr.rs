@@ -64,7 +64,10 @@ fn read_part(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
     let roughness = roughness_list(&text, text.split(',').count()).map_err(wrong)?;
     let levels = levels_in_strip(&map, roughness.len())
         .ok_or_else(|| wrong(format!("{} levels do not fit a strip of {width} x {height}", roughness.len())))?;
-    Ok(Content::Levels(StoredLevels { levels, lobe: StoredLobe::Ggx(roughness), irradiance_sh: None }, notes))
+    Ok(Content::Levels(
+        StoredLevels { levels, lobe: StoredLobe::Ggx(roughness), slope: Vec::new(), irradiance_sh: None },
+        notes,
+    ))
 }
 
 /// The text that says that the picture is a strip of levels.

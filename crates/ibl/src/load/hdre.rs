@@ -89,7 +89,7 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<StoredLevels, Fault> 
             }
         }
     }
-    Ok(StoredLevels { levels, lobe: StoredLobe::Hdre { version }, irradiance_sh })
+    Ok(StoredLevels { levels, lobe: StoredLobe::Hdre { version }, slope: Vec::new(), irradiance_sh })
 }
 
 /// How a component is stored.

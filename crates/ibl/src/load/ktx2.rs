@@ -7,12 +7,13 @@ use super::{Content, Fault, Limits, Picture, StoredLevels, StoredLobe, checked_t
 use crate::cube::Cube;
 use crate::equirect::Equirect;
 use crate::ktx2::{
-    HEADER_BYTES, IDENTIFIER, KEY_CONTENT, KEY_ORIENTATION, KEY_ROUGHNESS, LEVEL_ENTRY_BYTES, RGB9E5, RGBA16F, RGBA32F,
-    color_from_rgb9e5,
+    ALPHA_SLOPE, HEADER_BYTES, IDENTIFIER, KEY_ALPHA, KEY_CONTENT, KEY_ORIENTATION, KEY_ROUGHNESS, LEVEL_ENTRY_BYTES,
+    RGB9E5, RGBA16F, RGBA32F, color_from_rgb9e5,
 };
 use crate::save::CubeContent;
 use half::f16;
 use halfvector_maps::color::linear_from_srgb;
+use std::borrow::Cow;
 use std::io::Read;
 
 pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
@@ -24,8 +25,9 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
         return Err(field(KEY_ORIENTATION, format!("\"{orientation}\" is not \"rd\", rows from the top; save it so")));
     }
     if header.faces == 1 {
-        let texels = header.texels(bytes, 0)?;
-        let map = Equirect { width: header.width, height: header.height, pixels: texels };
+        let plain = header.level_bytes(bytes, 0)?;
+        let pixels = plain.chunks_exact(header.coding.bytes()).map(|texel| header.coding.decoded(texel)).collect();
+        let map = Equirect { width: header.width, height: header.height, pixels };
         let low_dynamic_range = header.coding.low_dynamic_range();
         return Ok(Content::Picture(Picture { map, low_dynamic_range, notes: Vec::new() }));
     }
@@ -38,11 +40,19 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
         None => None,
     };
     let used = if roughness.is_some() { header.levels.len() } else { 1 };
-    let levels = (0..used)
-        .map(|level| Ok(Cube { size: (header.width >> level).max(1), texels: header.texels(bytes, level)? }))
-        .collect::<Result<_, Fault>>()?;
+    let alpha = (pairs.text(KEY_ALPHA) == Some(ALPHA_SLOPE)).then(|| header.coding.alpha()).flatten();
+    let (mut levels, mut slope) = (Vec::new(), Vec::new());
+    for level in 0..used {
+        let plain = header.level_bytes(bytes, level)?;
+        let texels = plain.chunks_exact(header.coding.bytes());
+        if let (Some(alpha), true) = (alpha, roughness.is_some()) {
+            slope.push(texels.clone().map(|texel| finite(alpha(texel))).collect());
+        }
+        let texels = texels.map(|texel| header.coding.decoded(texel)).collect();
+        levels.push(Cube { size: (header.width >> level).max(1), texels });
+    }
     let lobe = roughness.map_or(StoredLobe::Unknown, StoredLobe::Ggx);
-    Ok(Content::Levels(StoredLevels { levels, lobe, irradiance_sh: None }, notes))
+    Ok(Content::Levels(StoredLevels { levels, lobe, slope, irradiance_sh: None }, notes))
 }
 
 struct Header {
@@ -166,29 +176,30 @@ impl Header {
         }
     }
 
-    /// The texels of a level, face by face.
-    fn texels(&self, bytes: &[u8], level: usize) -> Result<Vec<[f32; 3]>, Fault> {
+    /// The texels of a level, face by face, without supercompression.
+    fn level_bytes<'a>(&self, bytes: &'a [u8], level: usize) -> Result<Cow<'a, [u8]>, Fault> {
         let (start, end) = self.levels[level];
         let stored = &bytes[start..end];
         let needed = self.level_texels(level) * self.coding.bytes();
-        let inflated;
         let plain = match self.compression {
-            Compression::None => stored,
-            Compression::Zstandard => {
-                inflated = zstandard(stored, needed).map_err(|why| damaged(level, &why))?;
-                inflated.as_slice()
-            }
-            Compression::Zlib => {
-                inflated = miniz_oxide::inflate::decompress_to_vec_zlib_with_limit(stored, needed)
-                    .map_err(|why| damaged(level, &why.to_string()))?;
-                inflated.as_slice()
-            }
+            Compression::None => Cow::Borrowed(stored),
+            Compression::Zstandard => Cow::Owned(zstandard(stored, needed).map_err(|why| damaged(level, &why))?),
+            Compression::Zlib => Cow::Owned(
+                miniz_oxide::inflate::decompress_to_vec_zlib_with_limit(stored, needed)
+                    .map_err(|why| damaged(level, &why.to_string()))?,
+            ),
         };
         if plain.len() != needed {
             return Err(damaged(level, &format!("it becomes {} bytes and should become {needed}", plain.len())));
         }
-        Ok(plain.chunks_exact(self.coding.bytes()).map(|texel| self.coding.decoded(texel)).collect())
+        Ok(plain)
     }
+}
+
+/// The number, held within what slopes of light can be; 0 for what is no number.
+fn finite(slope: f32) -> f32 {
+    const STEEPEST: f32 = 64.0;
+    if slope.is_nan() { 0.0 } else { slope.clamp(-STEEPEST, STEEPEST) }
 }
 
 fn damaged(level: usize, why: &str) -> Fault {
@@ -264,6 +275,15 @@ impl Coding {
             Coding::Float { channels } => 4 * channels,
             Coding::Rgb9E5 | Coding::R11G11B10 => 4,
             Coding::Codes { channels, .. } => channels,
+        }
+    }
+
+    /// Reads alpha, where there is one of full precision.
+    fn alpha(self) -> Option<fn(&[u8]) -> f32> {
+        match self {
+            Coding::Half { channels: 4 } => Some(|texel| f16::from_le_bytes([texel[6], texel[7]]).to_f32()),
+            Coding::Float { channels: 4 } => Some(|texel| f32::from_bits(number(texel, 12))),
+            _ => None,
         }
     }
 

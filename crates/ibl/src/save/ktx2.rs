@@ -6,8 +6,8 @@
 use super::{CubeContent, CubeLevels, SaveError, face_size};
 use crate::cube::Cube;
 use crate::ktx2::{
-    HEADER_BYTES, IDENTIFIER, KEY_CONTENT, KEY_ORIENTATION, KEY_ROUGHNESS, KEY_WRITER, LEVEL_ENTRY_BYTES, RGB9E5,
-    RGBA16F, RGBA32F, rgb9e5_from_color,
+    ALPHA_SLOPE, HEADER_BYTES, IDENTIFIER, KEY_ALPHA, KEY_CONTENT, KEY_ORIENTATION, KEY_ROUGHNESS, KEY_WRITER,
+    LEVEL_ENTRY_BYTES, RGB9E5, RGBA16F, RGBA32F, rgb9e5_from_color,
 };
 use crate::repair::MAX_RADIANCE;
 use half::f16;
@@ -47,16 +47,16 @@ impl TexelFormat {
         }
     }
 
-    fn put(self, texel: [f32; 3], bytes: &mut Vec<u8>) {
-        let [r, g, b] = texel;
+    fn put(self, color: [f32; 3], alpha: f32, bytes: &mut Vec<u8>) {
+        let [r, g, b] = color;
         match self {
             TexelFormat::Rgba16F => {
-                for x in [r, g, b, 1.0] {
+                for x in [r, g, b, alpha] {
                     bytes.extend(f16::from_f32(x.min(MAX_RADIANCE)).to_le_bytes());
                 }
             }
-            TexelFormat::Rgba32F => [r, g, b, 1.0].iter().for_each(|x| bytes.extend(x.to_le_bytes())),
-            TexelFormat::Rgb9E5 => bytes.extend(rgb9e5_from_color(texel).to_le_bytes()),
+            TexelFormat::Rgba32F => [r, g, b, alpha].iter().for_each(|x| bytes.extend(x.to_le_bytes())),
+            TexelFormat::Rgb9E5 => bytes.extend(rgb9e5_from_color(color).to_le_bytes()),
         }
     }
 
@@ -105,11 +105,11 @@ impl TexelFormat {
 /// The bytes of a KTX2 cube map.
 ///
 /// Key/values: `KTXorientation` "rd", `KTXwriter`, `halfvector.content` and, for radiance, `halfvector.roughness` with each
-/// level's perceptual roughness between commas.
+/// level's perceptual roughness between commas; `halfvector.alpha` when alpha holds the slope.
 ///
 /// # Errors
-/// When there is no level, when one has not half of the size of the one before (rounded down), or when the roughness of a
-/// level is missing.
+/// When there is no level, when one has not half of the size of the one before (rounded down), or when the roughness or
+/// the slopes of a level are missing.
 pub fn ktx2(cube: CubeLevels<'_>, format: TexelFormat) -> Result<Vec<u8>, SaveError> {
     let size = face_size(cube.levels)?;
     let most = size.ilog2() as usize + 1;
@@ -124,8 +124,14 @@ pub fn ktx2(cube: CubeLevels<'_>, format: TexelFormat) -> Result<Vec<u8>, SaveEr
         }
     }
 
+    let slope = if format == TexelFormat::Rgb9E5 { &[] } else { cube.slope };
+    let fits = |(level, slopes): (&Cube, &Vec<f32>)| level.texels.len() == slopes.len();
+    if !slope.is_empty() && (slope.len() != count || !cube.levels.iter().zip(slope).all(fits)) {
+        return Err(SaveError::Levels { found: slope.len(), needed: format!("slopes for each texel of {count}") });
+    }
+
     let descriptor = format.descriptor();
-    let key_values = key_values(cube);
+    let key_values = key_values(cube, !slope.is_empty());
     let descriptor_at = HEADER_BYTES + LEVEL_ENTRY_BYTES * count;
     let key_values_at = descriptor_at + descriptor.len();
     let alignment = format.texel_bytes();
@@ -156,15 +162,17 @@ pub fn ktx2(cube: CubeLevels<'_>, format: TexelFormat) -> Result<Vec<u8>, SaveEr
     }
     bytes.extend(descriptor);
     bytes.extend(key_values);
-    for (level, place) in cube.levels.iter().zip(&places).rev() {
-        bytes.resize(*place, 0);
-        level.texels.iter().for_each(|&texel| format.put(texel, &mut bytes));
+    for (k, level) in cube.levels.iter().enumerate().rev() {
+        bytes.resize(places[k], 0);
+        for (i, &color) in level.texels.iter().enumerate() {
+            format.put(color, slope.get(k).map_or(1.0, |slopes| slopes[i]), &mut bytes);
+        }
     }
     Ok(bytes)
 }
 
 /// Keys with their values as texts that end with NUL, sorted by key, each padded to four bytes.
-fn key_values(cube: CubeLevels<'_>) -> Vec<u8> {
+fn key_values(cube: CubeLevels<'_>, slope: bool) -> Vec<u8> {
     let mut pairs = vec![
         (KEY_ORIENTATION, "rd".to_owned()),
         (KEY_WRITER, concat!("halfvector ", env!("CARGO_PKG_VERSION")).to_owned()),
@@ -173,6 +181,9 @@ fn key_values(cube: CubeLevels<'_>) -> Vec<u8> {
     if cube.content == CubeContent::Radiance {
         let numbers: Vec<String> = cube.roughness.iter().map(f32::to_string).collect();
         pairs.push((KEY_ROUGHNESS, numbers.join(",")));
+    }
+    if slope {
+        pairs.push((KEY_ALPHA, ALPHA_SLOPE.to_owned()));
     }
     pairs.sort();
     let mut bytes = Vec::new();

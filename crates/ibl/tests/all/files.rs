@@ -1,8 +1,9 @@
 //! Files: real ones give the light they should, damaged and lying ones an error that names the field.
 
 use crate::data_file;
+use halfvector_ibl::save::{CubeLevels, TexelFormat, ktx2};
 use halfvector_ibl::{
-    BakeOptions, Equirect, LevelMap, Limits, LoadError, LoadedEnvironment, MAX_RADIANCE, Source, StoredLevels,
+    BakeOptions, Cube, Equirect, LevelMap, Limits, LoadError, LoadedEnvironment, MAX_RADIANCE, Source, StoredLevels,
     StoredLobe, bake, load, load_within,
 };
 use proptest::prelude::*;
@@ -243,6 +244,54 @@ fn small_hdr() -> Vec<u8> {
     bytes
 }
 
+fn small_ktx2(format: TexelFormat) -> Vec<u8> {
+    let levels = [8, 4, 2].map(|size| Cube { size, texels: vec![[0.5, 1.0, 2.0]; 6 * size * size] });
+    ktx2(CubeLevels::radiance(&levels, &[0.0, 0.5, 1.0]), format).expect("written")
+}
+
+/// Each field of a KTX2 file in turn.
+#[test]
+fn lying_ktx2_headers_name_the_field() {
+    let sound = small_ktx2(TexelFormat::Rgba16F);
+    assert!(load(&sound, "x").is_ok());
+    let with = |at: usize, bytes: &[u8]| {
+        let mut file = sound.clone();
+        file[at..at + bytes.len()].copy_from_slice(bytes);
+        file
+    };
+    let roughness = sound.windows(7).position(|text| text == b"0,0.5,1").expect("the list");
+    for (file, part) in [
+        (with(5, b"11"), "KTX 1"),
+        (with(8, b"\n\n"), "identifier"),
+        (sound[..70].to_vec(), "its header"),
+        (sound[..100].to_vec(), "its level index"),
+        (with(12, &[0]), "vkFormat: 0 (Basis"),
+        (with(12, &[131]), "BC block"),
+        (with(20, &[0, 0, 0, 0, 0]), "size"),
+        (with(20, &[0xff; 8]), "limit"),
+        (with(20, &[16]), "pixelHeight"),
+        (with(28, &[1]), "pixelDepth"),
+        (with(32, &[9]), "layerCount"),
+        (with(36, &[5]), "faceCount"),
+        (with(40, &[9]), "levelCount"),
+        (with(44, &[1]), "supercompressionScheme"),
+        (with(44, &[77]), "supercompressionScheme"),
+        (with(44, &[2]), "level 0"),
+        (with(44, &[3]), "level 0"),
+        (with(56, &[0xff; 4]), "kvdByteOffset"),
+        (with(80, &[0xff; 8]), "byteOffset of level 0"),
+        (with(80 + 24, &[0xff; 4]), "byteOffset of level 1"),
+        (with(88, &[1]), "byteLength of level 0"),
+        (with(96, &[0xff; 8]), "uncompressedByteLength of level 0"),
+        (with(roughness, b"1"), "halfvector.roughness"),
+        (with(roughness, b"x"), "halfvector.roughness"),
+        (sound[..sound.len() - 1].to_vec(), "level 0"),
+    ] {
+        let error = load(&file, "room.ktx2").expect_err(part).to_string();
+        assert!(error.contains(part) && error.contains("room.ktx2"), "{error} should name {part}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(
         std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(400)
@@ -251,7 +300,7 @@ proptest! {
     /// No bytes whatever make a reader panic or give values out of range: sound files, cut short and with bytes changed.
     #[test]
     fn damaged_files(
-        which in 0usize..4,
+        which in 0usize..6,
         cut in any::<prop::sample::Index>(),
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
         keep_whole in any::<bool>(),
@@ -260,6 +309,8 @@ proptest! {
             0 => small_hdr(),
             1 => hdre(2.0, 8, 3, 32, 4, |_, _| vec![7; 16]),
             2 => hdre(3.0, 16, 2, 16, 3, |level, face| vec![level as u8, face as u8, 1, 2, 3, 60]),
+            3 => small_ktx2(TexelFormat::Rgba16F),
+            4 => small_ktx2(TexelFormat::Rgb9E5),
             _ => small_exr(),
         };
         for (index, value) in changes {

@@ -3,8 +3,10 @@
 
 mod albedo;
 mod bake;
+mod exr;
 mod files;
 mod occlusion;
+mod peers;
 mod save;
 mod truth;
 

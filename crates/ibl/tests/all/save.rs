@@ -1,7 +1,7 @@
 //! Written files: what is read back, and what other readers rely on byte by byte.
 
 use crate::data_file;
-use halfvector_ibl::save::{CubeContent, CubeLevels, SaveError, TexelFormat, exr, hdre, hdre_face, ktx2, strip};
+use halfvector_ibl::save::{CubeLevels, SaveError, TexelFormat, exr, hdre, hdre_face, ktx2, strip};
 use halfvector_ibl::{
     BakeOptions, Cube, Layout, LevelMap, LoadedEnvironment, Source, StoredLevels, StoredLobe, bake, load, load_faces,
     studio,
@@ -25,10 +25,6 @@ fn levels() -> Vec<Cube> {
         .collect()
 }
 
-fn radiance<'a>(levels: &'a [Cube], roughness: &'a [f32]) -> CubeLevels<'a> {
-    CubeLevels { levels, roughness, content: CubeContent::Radiance }
-}
-
 fn number(bytes: &[u8], at: usize) -> usize {
     u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes")) as usize
 }
@@ -41,8 +37,8 @@ fn long(bytes: &[u8], at: usize) -> usize {
 fn ktx2_comes_back() {
     let (levels, roughness) = (levels(), [0.0, 0.3, 1.0]);
     for format in [TexelFormat::Rgba16F, TexelFormat::Rgba32F, TexelFormat::Rgb9E5] {
-        let bytes = ktx2(radiance(&levels, &roughness), format).expect("written");
-        assert_eq!(bytes, ktx2(radiance(&levels, &roughness), format).expect("written"));
+        let bytes = ktx2(CubeLevels::radiance(&levels, &roughness), format).expect("written");
+        assert_eq!(bytes, ktx2(CubeLevels::radiance(&levels, &roughness), format).expect("written"));
         let back = stored(load(&bytes, "x.ktx2").expect("sound"));
         assert_eq!(back.lobe, StoredLobe::Ggx(roughness.to_vec()));
         assert_eq!(back.levels.len(), 3);
@@ -51,12 +47,30 @@ fn ktx2_comes_back() {
             for (a, b) in a.texels.iter().zip(&b.texels) {
                 let largest = a.iter().copied().fold(0.0, f32::max);
                 for c in 0..3 {
-                    let allowed = if format == TexelFormat::Rgb9E5 { largest / 512.0 } else { 0.0 };
+                    let allowed = if format == TexelFormat::Rgb9E5 { largest / 511.0 } else { 0.0 };
                     assert!((a[c] - b[c]).abs() <= allowed, "{format:?}: {a:?} came back as {b:?}");
                 }
             }
         }
     }
+}
+
+/// Slopes are alpha where there is one, told by a key; a slope that is no number is none.
+#[test]
+fn ktx2_keeps_slopes() {
+    let (levels, roughness) = (levels(), [0.0, 0.5, 1.0]);
+    let slope: Vec<Vec<f32>> =
+        levels.iter().map(|level| (0..level.texels.len()).map(|k| k as f32 / 64.0 - 1.0).collect()).collect();
+    let cube = CubeLevels { slope: &slope, ..CubeLevels::radiance(&levels, &roughness) };
+    let back = |format, cube| stored(load(&ktx2(cube, format).expect("written"), "x").expect("sound"));
+    assert_eq!(back(TexelFormat::Rgba16F, cube).slope, slope);
+    assert_eq!(back(TexelFormat::Rgba32F, cube).slope, slope);
+    assert!(back(TexelFormat::Rgb9E5, cube).slope.is_empty());
+    assert!(back(TexelFormat::Rgba32F, CubeLevels::radiance(&levels, &roughness)).slope.is_empty());
+    let broken = slope.iter().map(|level| vec![f32::NAN; level.len()]).collect::<Vec<_>>();
+    assert_eq!(back(TexelFormat::Rgba32F, CubeLevels { slope: &broken, ..cube }).slope[2][0], 0.0);
+    let short = CubeLevels { slope: &slope[1..], ..cube };
+    assert!(matches!(ktx2(short, TexelFormat::Rgba16F), Err(SaveError::Levels { .. })));
 }
 
 /// Every number of the header, the descriptor as the Khronos library writes it for the same VkFormat, the smallest level
@@ -154,7 +168,7 @@ fn ktx2_bytes_are_as_specified() {
         (TexelFormat::Rgba32F, 109, 4, 16, float.as_slice()),
         (TexelFormat::Rgb9E5, 123, 4, 4, shared.as_slice()),
     ] {
-        let bytes = ktx2(radiance(&levels, &roughness), format).expect("written");
+        let bytes = ktx2(CubeLevels::radiance(&levels, &roughness), format).expect("written");
         let header: Vec<usize> = (0..9).map(|i| number(&bytes, 12 + 4 * i)).collect();
         assert_eq!(header, [vk_format, type_size, 16, 16, 0, 0, 6, 3, 0]);
         let (at, length) = (number(&bytes, 48), number(&bytes, 52));
@@ -189,16 +203,14 @@ fn ktx2_bytes_are_as_specified() {
 #[test]
 fn what_a_format_cannot_hold_is_refused() {
     let levels = levels();
-    assert!(matches!(ktx2(radiance(&levels, &[0.0]), TexelFormat::Rgba16F), Err(SaveError::Levels { .. })));
-    let irradiance = |levels| CubeLevels { levels, roughness: &[], content: CubeContent::IrradianceOverPi };
-    assert!(matches!(ktx2(irradiance(&[]), TexelFormat::Rgba16F), Err(SaveError::Size { .. })));
-    assert!(matches!(
-        ktx2(irradiance(&[levels[1].clone(), levels[1].clone()]), TexelFormat::Rgba16F),
-        Err(SaveError::Size { .. })
-    ));
+    assert!(matches!(ktx2(CubeLevels::radiance(&levels, &[0.0]), TexelFormat::Rgba16F), Err(SaveError::Levels { .. })));
+    let twice = [levels[1].clone(), levels[1].clone()];
+    let uneven = CubeLevels { levels: &twice, ..CubeLevels::irradiance_over_pi(&twice[0]) };
+    assert!(matches!(ktx2(CubeLevels::radiance(&[], &[]), TexelFormat::Rgba16F), Err(SaveError::Size { .. })));
+    assert!(matches!(ktx2(uneven, TexelFormat::Rgba16F), Err(SaveError::Size { .. })));
     assert!(matches!(hdre(&levels, None), Err(SaveError::Levels { .. })));
-    assert!(matches!(exr(irradiance(&[])), Err(SaveError::Size { .. })));
-    let bytes = ktx2(irradiance(&levels[..1]), TexelFormat::Rgba16F).expect("written");
+    assert!(matches!(exr(CubeLevels::radiance(&[], &[])), Err(SaveError::Size { .. })));
+    let bytes = ktx2(CubeLevels::irradiance_over_pi(&levels[0]), TexelFormat::Rgba16F).expect("written");
     let environment = load(&bytes, "x").expect("sound");
     assert!(environment.notes[0].contains("irradiance"), "{:?}", environment.notes);
 }
@@ -214,7 +226,7 @@ fn baked_levels_are_used_as_they_are() {
         ..BakeOptions::default()
     };
     let baked = bake(&studio(), &options);
-    let bytes = ktx2(radiance(&baked.radiance, &baked.roughness), TexelFormat::Rgba32F).expect("written");
+    let bytes = ktx2(CubeLevels::radiance(&baked.radiance, &baked.roughness), TexelFormat::Rgba32F).expect("written");
     let environment = load(&bytes, "x.ktx2").expect("sound");
     assert_eq!(bake(&environment, &options).radiance, baked.radiance);
     // For another roughness they are filtered anew.
@@ -226,7 +238,7 @@ fn baked_levels_are_used_as_they_are() {
 #[test]
 fn supercompression_is_undone() {
     let levels = levels();
-    let plain = ktx2(radiance(&levels, &[0.0, 0.5, 1.0]), TexelFormat::Rgba32F).expect("written");
+    let plain = ktx2(CubeLevels::radiance(&levels, &[0.0, 0.5, 1.0]), TexelFormat::Rgba32F).expect("written");
     let compressed = |scheme: u32, code: &dyn Fn(&[u8]) -> Vec<u8>| {
         let start = long(&plain, 80 + 2 * 24);
         let mut bytes = plain[..start].to_vec();
@@ -290,11 +302,11 @@ fn exr_strips_come_back() {
     let (width, height, texels) = strip(&levels);
     assert_eq!((width, height, texels.len()), (96, 28, 96 * 28));
     assert_eq!(texels[17 * 96 + 8], levels[1].texels[64 + 8], "face 1 of level 1, row 1");
-    let bytes = exr(radiance(&levels, &roughness)).expect("written");
+    let bytes = exr(CubeLevels::radiance(&levels, &roughness)).expect("written");
     let back = stored(load(&bytes, "x.exr").expect("sound"));
     assert_eq!((back.levels, back.lobe), (levels.clone(), StoredLobe::Ggx(roughness.to_vec())));
     // Of irradiance it is a plain strip of faces.
-    let irradiance = CubeLevels { levels: &levels[..1], roughness: &[], content: CubeContent::IrradianceOverPi };
+    let irradiance = CubeLevels::irradiance_over_pi(&levels[0]);
     let environment = load(&exr(irradiance).expect("written"), "x.exr").expect("sound");
     assert_eq!(environment.layout, Layout::HorizontalStrip);
     assert_eq!(stored(environment).levels, levels[..1]);
@@ -319,7 +331,11 @@ fn six_files_are_a_cube() {
     for (changed, file, part) in [
         (2, hdr(2, 1, 0), "square"),
         (3, hdr(4, 4, 0), "the face +X is 2 x 2"),
-        (5, ktx2(radiance(&levels(), &[0.0, 0.5, 1.0]), TexelFormat::Rgba16F).expect("written"), "a whole cube"),
+        (
+            5,
+            ktx2(CubeLevels::radiance(&levels(), &[0.0, 0.5, 1.0]), TexelFormat::Rgba16F).expect("written"),
+            "a whole cube",
+        ),
         (1, b"text".to_vec(), "not an environment"),
     ] {
         let error = with(changed, &file).expect_err(part).to_string();

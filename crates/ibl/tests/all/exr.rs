@@ -1,0 +1,112 @@
+//! OpenEXR files of the kinds that cameras, renderers and compositors write.
+
+use exr::prelude::*;
+use halfvector_ibl::{Equirect, Source, load};
+use std::io::Cursor;
+
+const SIZE: (usize, usize) = (8, 4);
+
+/// A ramp that tells the channel and the texel.
+fn value(channel: usize, k: usize) -> f32 {
+    (100 * channel + k) as f32
+}
+
+fn floats(channel: usize) -> FlatSamples {
+    FlatSamples::F32((0..32).map(|k| value(channel, k)).collect())
+}
+
+fn layer(name: &str, encoding: Encoding, channels: Vec<(&str, FlatSamples)>) -> Layer<AnyChannels<FlatSamples>> {
+    let list = channels.into_iter().map(|(name, samples)| AnyChannel::new(name, samples)).collect();
+    Layer::new(SIZE, LayerAttributes::named(name), encoding, AnyChannels::sort(list))
+}
+
+fn file(layers: Vec<Layer<AnyChannels<FlatSamples>>>) -> Vec<u8> {
+    let attributes = ImageAttributes::new(IntegerBounds::from_dimensions(SIZE));
+    let mut bytes = Cursor::new(Vec::new());
+    let image = Image::from_layers(attributes, SmallVec::from_vec(layers));
+    image.write().non_parallel().to_buffered(&mut bytes).expect("written to memory");
+    bytes.into_inner()
+}
+
+fn map(bytes: &[u8]) -> Equirect {
+    match load(bytes, "x.exr").expect("sound").source {
+        Source::Equirect(map) => map,
+        Source::Levels(_) => panic!("a map was expected"),
+    }
+}
+
+#[track_caller]
+fn assert_ramps(bytes: &[u8]) {
+    for (k, texel) in map(bytes).pixels.iter().enumerate() {
+        assert_eq!(*texel, [value(0, k), value(1, k), value(2, k)], "texel {k}");
+    }
+}
+
+#[test]
+fn every_kind_of_sample_in_any_order() {
+    let halves = FlatSamples::F16((0..32).map(|k| f16::from_f32(value(0, k))).collect());
+    let integers = FlatSamples::U32((0..32).map(|k| value(1, k) as u32).collect());
+    let channels = vec![("B", floats(2)), ("A", floats(5)), ("R", halves), ("G", integers), ("Z", floats(7))];
+    assert_ramps(&file(vec![layer("x", Encoding::SMALL_LOSSLESS, channels)]));
+}
+
+#[test]
+fn tiles_and_compressions() {
+    let tiled = Blocks::Tiles(Vec2(3, 3));
+    for (compression, blocks) in [
+        (Compression::Uncompressed, tiled),
+        (Compression::ZIP1, Blocks::ScanLines),
+        (Compression::RLE, tiled),
+        (Compression::PIZ, Blocks::ScanLines),
+        (Compression::ZIP16, tiled),
+    ] {
+        let encoding = Encoding { compression, blocks, line_order: LineOrder::Increasing };
+        assert_ramps(&file(vec![layer("x", encoding, vec![("R", floats(0)), ("G", floats(1)), ("B", floats(2))])]));
+    }
+}
+
+/// The first part with colours; in it plain names before those of a layer, and all three from one layer.
+#[test]
+fn parts_and_layers() {
+    let depth = layer("depth", Encoding::SMALL_LOSSLESS, vec![("Z", floats(3))]);
+    let color = |name, first| {
+        let channels = vec![("R", floats(first)), ("G", floats(first + 1)), ("B", floats(first + 2))];
+        layer(name, Encoding::SMALL_LOSSLESS, channels)
+    };
+    assert_ramps(&file(vec![depth.clone(), color("beauty", 0), color("other", 4)]));
+    let layers = vec![
+        ("diffuse.R", floats(5)),
+        ("view.R", floats(0)),
+        ("view.G", floats(1)),
+        ("view.B", floats(2)),
+        ("zeta.G", floats(6)),
+    ];
+    assert_ramps(&file(vec![layer("x", Encoding::SMALL_LOSSLESS, layers)]));
+    let error = load(&file(vec![depth]), "x.exr").expect_err("no colours").to_string();
+    assert!(error.contains("channels") && error.contains("Z"), "{error}");
+}
+
+#[test]
+fn grey_alone_is_grey() {
+    let bytes = file(vec![layer("x", Encoding::SMALL_LOSSLESS, vec![("Y", floats(1))])]);
+    assert_eq!(map(&bytes).pixels[5], [value(1, 5); 3]);
+    let chroma = vec![("Y", floats(1)), ("RY", floats(2)), ("BY", floats(3))];
+    load(&file(vec![layer("x", Encoding::SMALL_LOSSLESS, chroma)]), "x.exr").expect_err("chroma is no grey");
+}
+
+/// What would be read wrongly is refused by the name of its attribute.
+#[test]
+fn crops_and_cubes_are_refused() {
+    let plain = || layer("x", Encoding::SMALL_LOSSLESS, vec![("R", floats(0)), ("G", floats(1)), ("B", floats(2))]);
+    let written = |image: Image<Layer<AnyChannels<FlatSamples>>>| {
+        let mut bytes = Cursor::new(Vec::new());
+        image.write().non_parallel().to_buffered(&mut bytes).expect("written to memory");
+        load(&bytes.into_inner(), "x.exr").map(|_| ()).expect_err("refused").to_string()
+    };
+    let mut cropped = Image::from_layer(plain());
+    cropped.attributes.display_window = IntegerBounds::from_dimensions((16, 8));
+    assert!(written(cropped).contains("dataWindow"));
+    let mut cube = Image::from_layer(plain());
+    cube.layer_data.attributes.environment_map = Some(attribute::EnvironmentMap::Cube);
+    assert!(written(cube).contains("envmap"));
+}
