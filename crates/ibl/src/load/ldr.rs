@@ -1,6 +1,7 @@
 //! Ordinary images as environments: PNG, JPEG, TIFF, WebP, TGA, BMP, QOI, read by the crate of texture maps.
 //!
-//! Codes are sRGB, or what the file's profile says, and become linear radiance 0..1; float TIFF files are taken as linear. Alpha is ignored.
+//! Codes are sRGB, or what the file's profile says, and become linear radiance 0..1; float TIFF files are taken as linear.
+//! Alpha is ignored.
 
 use super::{Fault, Limits, Picture, checked_texels};
 use crate::equirect::Equirect;
