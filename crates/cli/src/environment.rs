@@ -1,7 +1,8 @@
 //! The environment of a scene, loaded and baked as its methods ask.
 
 use halfvector_ibl::{
-    BakeOptions, BakedEnvironment, Layout, LevelMap, LoadedEnvironment, Source, StoredLobe, bake_with_progress,
+    BakeOptions, BakedEnvironment, Layout, LevelMap, LoadedEnvironment, Prefilter, Source, StoredLobe,
+    bake_with_progress,
 };
 use halfvector_scene::{EnvironmentSource, Scene};
 
@@ -68,9 +69,14 @@ pub(crate) fn ggx_roughness(loaded: &LoadedEnvironment) -> Option<&[f32]> {
 }
 
 fn bake_options(scene: &Scene, loaded: &LoadedEnvironment) -> BakeOptions {
-    let level_map = if scene.methods.is("level_map", "report") { LevelMap::Report } else { LevelMap::Linear };
+    let level_map = match scene.methods.get("level_map").name {
+        "report" => LevelMap::Report,
+        "linear" => LevelMap::Linear,
+        _ => LevelMap::Geometric,
+    };
+    let prefilter = if scene.methods.is("prefilter", "hdre") { Prefilter::Hdre } else { Prefilter::Ggx };
     let decode_report = scene.methods.is("env_decode", "report");
-    let mut options = BakeOptions { level_map, decode_report, ..BakeOptions::default() };
+    let mut options = BakeOptions { level_map, prefilter, decode_report, ..BakeOptions::default() };
     if scene.environment == EnvironmentSource::White {
         // The same from everywhere: a few texels say it.
         (options.size, options.irradiance_size) = (64, 1);

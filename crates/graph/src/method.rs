@@ -123,13 +123,22 @@ pub const TERMS: &[Term] = &[
     Term {
         name: "prefilter",
         help: "filter of the environment's levels",
-        methods: &[method("ggx", None, "Karis 2013: n = v = r, GGX")],
+        methods: &[
+            method("ggx", None, "Karis 2013: n = v = r, GGX"),
+            method("hdre", None, "writers of HDRE files: n.l to a power that falls with the roughness"),
+        ],
         report: "ggx",
     },
     Term {
         name: "level_map",
         help: "perceptual roughness to level",
         methods: &[
+            method(
+                "hermite",
+                Some("lod_geometric"),
+                "levels at equal steps of log roughness from 0.1; logarithms mixed by stored slopes",
+            ),
+            method("geometric", Some("lod_geometric"), "levels at equal steps of log roughness from 0.1; linear mix"),
             method("linear", Some("lod_linear"), "lod = roughness (levels - 1)"),
             method("report", Some("lod_report"), "six levels, lod = 5 roughness"),
         ],

@@ -1,34 +1,61 @@
 //! From a loaded environment to what a shader reads: prefiltered levels, irradiance, harmonics.
 
-use crate::cube::Cube;
+use crate::cube::{Cube, texel_direction, texels, unit};
 use crate::equirect::Equirect;
-use crate::harmonics::{MAX_BAND, Spectrum};
-use crate::kernel::{cosine_kernel, ggx_band, ggx_grid_rows, ggx_kernel};
+use crate::harmonics::{Grid, MAX_BAND, Spectrum};
+use crate::kernel::Lobe;
 use crate::load::{LoadedEnvironment, Source, StoredLevels, StoredLobe};
 use crate::lobe::narrow_lobe;
 use crate::resample::{cube_from_equirect, equirect_from_cube};
-use halfvector_brdf::ggx::alpha_from_perceptual_roughness;
 use std::borrow::Cow;
+use std::f64::consts::LN_2;
 
 /// The largest face of level 0.
 pub const MAX_SIZE: usize = 8192;
 
-/// Texels along an edge of the irradiance cube by default: linear interpolation between them is within 0.1 %.
-const IRRADIANCE_SIZE: usize = 64;
+/// Texels along an edge of the irradiance cube by default. Where a lamp sets, the light has a kink that a linear mix rounds
+/// off, most where all else is black: by 1.2 % with 64 texels, by 0.4 % with 192.
+const IRRADIANCE_SIZE: usize = 192;
 
-/// The smallest face that the default number of levels ends with.
-const SMALLEST_FACE: usize = 8;
+/// The smallest face that the default number of levels ends with: at roughness 1 the light has a kink where a lamp sets,
+/// and with fewer texels the linear mix between them is too dark or too bright there by a tenth.
+const SMALLEST_FACE: usize = 16;
+
+/// The fewest levels by default.
+const FEWEST_LEVELS: usize = 5;
+
+/// Perceptual roughness of level 1 of [`LevelMap::Geometric`].
+const FIRST_ROUGHNESS: f64 = 0.1;
 
 /// Which roughness each level is prefiltered for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum LevelMap {
-    /// Level i of n: perceptual roughness i / (n - 1); read with `lod_linear`.
+    /// Level 0 is the environment, level 1 is prefiltered for perceptual roughness 0.1, the last for 1, and each between
+    /// them for the same multiple of the one before; slopes for [`mix_levels`](crate::environment::mix_levels) are baked
+    /// too. Read with `lod_geometric` and `environment_sample_hermite`.
     #[default]
+    Geometric,
+    /// Level i of n: perceptual roughness i / (n - 1); read with `lod_linear`.
     Linear,
     /// The report's six levels at roughness i / 5, read with `lod_report`. A file that stores six levels is used as it is.
     Report,
     /// The perceptual roughness of each level, 0..1. The first level is the environment itself, whatever its number.
     Listed(Vec<f32>),
+}
+
+/// The lobe that levels are filtered with, always with n = v = r.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Prefilter {
+    /// Karis 2013, "Real Shading in Unreal Engine 4": D_GGX(h) n.l.
+    #[default]
+    Ggx,
+    /// The sheen lobe, D_Charlie(h) n.l (Estevez and Kulla 2017), which sees a ring near the horizon. Level 0 is filtered
+    /// too, and below perceptual roughness 0.1 the lobe stays as it is there.
+    Charlie,
+    /// What the writers of HDRE files use: n.l to the power 8 (1 - r) f / 2^(5 r), where f is the face size of level 0 and r
+    /// the perceptual roughness, at most 0.98; level i of [`LevelMap::Report`] has r = (i + 1) / 6, though it is read as
+    /// i / 5. Their sum over every fourth texel without solid angles is an integral here.
+    Hdre,
 }
 
 /// How exact a bake is, and how long it takes.
@@ -48,7 +75,8 @@ pub enum Quality {
 pub struct BakeOptions {
     /// Texels along an edge of level 0, held in 1..=[`MAX_SIZE`]; each further level has half as many, at least 1.
     pub size: usize,
-    /// Number of levels of [`LevelMap::Linear`], held in 1..=14. `None`: as many as leave 8 texels in the last.
+    /// Number of levels of [`LevelMap::Geometric`] and [`LevelMap::Linear`], held in 1..=14. `None`: as many as leave 16
+    /// texels in the last, but at least five where there are so many.
     pub levels: Option<usize>,
     /// Which roughness each level is prefiltered for.
     pub level_map: LevelMap,
@@ -58,6 +86,8 @@ pub struct BakeOptions {
     pub irradiance_size: usize,
     /// How exact, and how long it takes.
     pub quality: Quality,
+    /// The lobe of the levels. Stored levels are used as they are, whatever it says.
+    pub prefilter: Prefilter,
 }
 
 impl Default for BakeOptions {
@@ -65,10 +95,11 @@ impl Default for BakeOptions {
         BakeOptions {
             size: 512,
             levels: None,
-            level_map: LevelMap::Linear,
+            level_map: LevelMap::Geometric,
             decode_report: false,
             irradiance_size: IRRADIANCE_SIZE,
             quality: Quality::Default,
+            prefilter: Prefilter::Ggx,
         }
     }
 }
@@ -80,6 +111,9 @@ pub struct BakedEnvironment {
     pub radiance: Vec<Cube>,
     /// The perceptual roughness that each level is prefiltered for.
     pub roughness: Vec<f32>,
+    /// For each level and texel, what [`mix_levels`](crate::environment::mix_levels) wants in the fourth channel: the
+    /// change of log2(red + green + blue) from level to level, as a derivative. Empty but for [`LevelMap::Geometric`].
+    pub slope: Vec<Vec<f32>>,
     /// Diffuse irradiance over pi: the radiance that a white Lambert surface facing each direction sends out.
     pub irradiance_over_pi: Cube,
     /// The same as nine coefficients of [`irradiance_sh2`](crate::environment::irradiance_sh2), constants folded in.
@@ -115,32 +149,56 @@ pub fn bake_with_progress(
         Source::Levels(stored) => (Cow::Owned(equirect_from_cube(&stored.levels[0])), stored.levels[0].resized(size)),
     };
 
-    let alphas: Vec<f64> = roughness.iter().map(|&r| alpha_from_perceptual_roughness(f64::from(r))).collect();
-    // As many degrees as the narrowest lobe needs that is to be computed.
-    let needed = if stored.is_some() { &[] } else { &alphas[1..] };
-    let narrowest = needed.iter().copied().filter(|&alpha| alpha > 0.0).fold(1.0, f64::min);
     let series_end = options.quality.series_end();
-    let spectrum = Spectrum::from_equirect(&map, ggx_band(narrowest, series_end).min(MAX_BAND));
+    let lobes: Vec<Option<Lobe>> =
+        (0..roughness.len()).map(|level| options.lobe(level, f64::from(roughness[level]), size)).collect();
+    // As many degrees as the narrowest lobe needs that is to be computed.
+    let needed = if stored.is_some() { &[] } else { &lobes[..] };
+    let band = needed.iter().flatten().map(|lobe| lobe.band(series_end)).max().unwrap_or(0);
+    let rows = options.quality.map_rows();
+    let map = if map.height > rows {
+        Cow::Owned(map.area_resampled((map.width * rows).div_ceil(map.height), rows))
+    } else {
+        map
+    };
+    let spectrum = Spectrum::from_equirect(&map, band.max(DIFFUSE.band(series_end)).min(MAX_BAND));
     // The analysis is about half of the work, each level and the irradiance an equal part of the rest.
-    let share_done = |level: usize| 0.5 + 0.5 * level as f32 / (alphas.len() + 1) as f32;
+    let share_done = |level: usize| 0.5 + 0.5 * level as f32 / (roughness.len() + 1) as f32;
     progress(share_done(0));
 
+    let geometric = options.level_map == LevelMap::Geometric;
+    let mut slope = Vec::new();
     let radiance = match stored {
+        Some(stored) if geometric => {
+            slope = stored.slope.clone();
+            stored.levels.clone()
+        }
         Some(stored) => stored.levels.iter().enumerate().map(|(i, level)| level.resized(face(i))).collect(),
         None => {
-            let mut levels = vec![level_0];
-            for (i, &alpha) in alphas.iter().enumerate().skip(1) {
+            let mut levels = Vec::new();
+            for (i, &lobe) in lobes.iter().enumerate() {
                 progress(share_done(i));
-                levels.push(prefiltered(&spectrum, &levels[0], alpha, face(i), series_end));
+                let level = Level { lobe, size: face(i), series_end };
+                if geometric {
+                    // log2 of the roughness rises by as much from each level to the next.
+                    let per_level = (1.0 / FIRST_ROUGHNESS).log2() / (lobes.len().max(3) - 2) as f64;
+                    let at = |steps: f64| options.lobe(i, f64::from(roughness[i]) * (per_level * steps).exp2(), size);
+                    let (cube, slopes) = level.with_slopes(&spectrum, &level_0, at);
+                    levels.push(cube);
+                    slope.push(slopes);
+                } else {
+                    levels.push(level.prefiltered(&spectrum, &level_0));
+                }
             }
             levels
         }
     };
-    progress(share_done(alphas.len()));
-    let irradiance = spectrum.synthesized(&cosine_kernel(ggx_band(1.0, series_end)), ggx_grid_rows(1.0));
+    progress(share_done(roughness.len()));
+    let irradiance = spectrum.synthesized(&DIFFUSE.kernel(DIFFUSE.band(series_end)), DIFFUSE.grid_rows());
     let baked = BakedEnvironment {
         radiance,
         roughness,
+        slope,
         irradiance_over_pi: Cube::from_fn(options.irradiance_size.clamp(1, 512), |dir| irradiance.sample(dir)),
         irradiance_sh: irradiance_coefficients(&spectrum),
     };
@@ -149,44 +207,118 @@ pub fn bake_with_progress(
 }
 
 impl Quality {
+    /// Rows of the map that are analysed at most; larger maps are averaged down.
+    fn map_rows(self) -> usize {
+        if self == Quality::Preview { 256 } else { usize::MAX }
+    }
+
     /// alpha times the degree at which the series of a GGX lobe ends: there k_l is about exp(-2 series_end).
     fn series_end(self) -> f64 {
         match self {
-            Quality::Preview => 4.0,
+            Quality::Preview => 5.0,
             Quality::Default => 7.0,
             Quality::Best => 10.0,
         }
     }
 }
 
-fn prefiltered(spectrum: &Spectrum, level_0: &Cube, alpha: f64, size: usize, series_end: f64) -> Cube {
-    // The narrowest lobe whose series ends within the spectrum.
-    let resolved = alpha.max(series_end / MAX_BAND as f64);
-    let band = ggx_band(resolved, series_end).min(MAX_BAND);
-    let grid = || spectrum.synthesized(&ggx_kernel(resolved, band), ggx_grid_rows(resolved));
-    if alpha <= 0.0 {
-        level_0.resized(size)
-    } else if alpha < resolved {
-        narrow_lobe(level_0, &grid(), alpha, resolved, size)
-    } else {
-        let grid = grid();
-        Cube::from_fn(size, |dir| grid.sample(dir))
+/// GGX at roughness 1 is the cosine.
+const DIFFUSE: Lobe = Lobe::Ggx(1.0);
+
+impl BakeOptions {
+    /// The lobe of a level; `None` for a mirror. A roughness above 1 goes on smoothly.
+    fn lobe(&self, level: usize, perceptual_roughness: f64, size: usize) -> Option<Lobe> {
+        let alpha = perceptual_roughness * perceptual_roughness;
+        match self.prefilter {
+            Prefilter::Ggx => (alpha > 0.0).then_some(Lobe::Ggx(alpha)),
+            Prefilter::Charlie => Some(Lobe::Charlie(alpha.max(0.01))),
+            Prefilter::Hdre if level == 0 => None,
+            Prefilter::Hdre => {
+                let written = (level + 1) as f64 / 6.0;
+                let r = if self.level_map == LevelMap::Report { written } else { perceptual_roughness };
+                let r = r.clamp(0.0045, 0.98);
+                Some(Lobe::CosinePower(8.0 * (1.0 - r) * size as f64 / (5.0 * r).exp2()))
+            }
+        }
+    }
+}
+
+/// A level to be computed.
+struct Level {
+    lobe: Option<Lobe>,
+    size: usize,
+    series_end: f64,
+}
+
+impl Level {
+    /// The level by the harmonic series; narrower GGX lobes than it resolves go on from there around each direction, and a
+    /// mirror shows `level_0`.
+    fn prefiltered(&self, spectrum: &Spectrum, level_0: &Cube) -> Cube {
+        let Some(lobe) = self.lobe else { return level_0.resized(self.size) };
+        let narrowest = self.series_end / MAX_BAND as f64;
+        match lobe {
+            Lobe::Ggx(alpha) if alpha < narrowest => {
+                let wide = self.grid(spectrum, Lobe::Ggx(narrowest));
+                narrow_lobe(level_0, &wide, alpha, narrowest, self.size)
+            }
+            _ => {
+                let grid = self.grid(spectrum, lobe);
+                Cube::from_fn(self.size, |dir| grid.sample(dir))
+            }
+        }
+    }
+
+    fn grid(&self, spectrum: &Spectrum, lobe: Lobe) -> Grid {
+        spectrum.synthesized(&lobe.kernel(lobe.band(self.series_end).min(MAX_BAND)), lobe.grid_rows())
+    }
+
+    /// The level, whose lobe the harmonic series resolves, and its slopes; `at` gives the lobe a few levels further. A
+    /// mirror's slopes are 0.
+    ///
+    /// The slope is d log2(L) = dL / (L ln 2), and convolution is linear: dL is the light convolved with the derivative of
+    /// the kernel.
+    fn with_slopes(&self, spectrum: &Spectrum, level_0: &Cube, at: impl Fn(f64) -> Option<Lobe>) -> (Cube, Vec<f32>) {
+        const STEP: f64 = 1e-3;
+        let (Some(lobe), Some(before), Some(after)) = (self.lobe, at(-STEP), at(STEP)) else {
+            let cube = self.prefiltered(spectrum, level_0);
+            let slopes = vec![0.0; cube.texels.len()];
+            return (cube, slopes);
+        };
+        let band = lobe.band(self.series_end).min(MAX_BAND);
+        let [before, kernel, after] = [before, lobe, after].map(|lobe| lobe.kernel(band));
+        let derivative: Vec<f64> = before.iter().zip(&after).map(|(a, b)| (b - a) / (2.0 * STEP)).collect();
+        let grid = spectrum.synthesized_with_grey(&kernel, &derivative, lobe.grid_rows());
+        let texels = texels(self.size, |face, i, j| {
+            let [r, g, b, change] = grid.sample_with_grey(unit(texel_direction(self.size, face, i as f64, j as f64)));
+            let slope = f64::from(change) / (f64::from(r + g + b) * LN_2).max(f64::MIN_POSITIVE);
+            // Beyond what a lamp does between levels as far apart as they may be there is only noise of black places.
+            [r, g, b, slope.clamp(-16.0, 16.0) as f32]
+        });
+        let slopes = texels.iter().map(|texel| texel[3]).collect();
+        (Cube { size: self.size, texels: texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect() }, slopes)
     }
 }
 
 /// Whether the levels of a file are what is asked for, so that they are taken as they are.
 fn serves(stored: &StoredLevels, options: &BakeOptions, roughness: &[f32], size: usize) -> bool {
     let report = options.level_map == LevelMap::Report && matches!(stored.lobe, StoredLobe::Hdre { .. });
-    report || stored.levels[0].size == size && stored.are_ggx_for(roughness)
+    let mixed = options.level_map != LevelMap::Geometric || stored.slope.len() == stored.levels.len();
+    let ggx = options.prefilter == Prefilter::Ggx && stored.are_ggx_for(roughness);
+    report || ggx && mixed && stored.levels[0].size == size
 }
 
 /// The roughness of each level.
 fn level_roughness(options: &BakeOptions, size: usize) -> Vec<f32> {
     let even = |levels: usize| (0..levels).map(|i| i as f32 / (levels.max(2) - 1) as f32).collect();
+    let halvings = (size / SMALLEST_FACE).max(1).ilog2() as usize;
+    let default = (halvings + 1).max(FEWEST_LEVELS.min(size.ilog2() as usize + 1));
+    let levels = options.levels.unwrap_or(default).clamp(1, 14);
     match &options.level_map {
-        LevelMap::Linear => {
-            let halvings = (size / SMALLEST_FACE).max(1).ilog2() as usize;
-            even(options.levels.unwrap_or(halvings + 1).clamp(1, 14))
+        LevelMap::Linear => even(levels),
+        LevelMap::Geometric => {
+            let share = |i: usize| (levels - 1 - i) as f64 / (levels.max(3) - 2) as f64;
+            let rising = |i: usize| FIRST_ROUGHNESS.powf(share(i)) as f32;
+            (0..levels).map(|i| if i == 0 { 0.0 } else { rising(i) }).collect()
         }
         LevelMap::Report => even(6),
         LevelMap::Listed(list) if list.is_empty() => vec![0.0],

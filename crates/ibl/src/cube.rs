@@ -66,56 +66,12 @@ impl Cube {
     /// A cube whose texels are `value(face, column, row)`, computed row by row in parallel.
     pub(crate) fn from_texels(size: usize, value: impl Fn(usize, usize, usize) -> [f32; 3] + Sync) -> Cube {
         let size = size.max(1);
-        let mut texels = vec![[0.0; 3]; 6 * size * size];
-        texels.par_chunks_mut(size).enumerate().for_each(|(line, row)| {
-            let (face, j) = (line / size, line % size);
-            for (i, texel) in row.iter_mut().enumerate() {
-                *texel = value(face, i, j);
-            }
-        });
-        Cube { size, texels }
+        Cube { size, texels: texels(size, value) }
     }
 
     /// The value in a direction, interpolated bilinearly, across edges too.
     pub fn sample(&self, dir: [f64; 3]) -> [f32; 3] {
-        let (face, s, t) = face_from_direction(dir);
-        let (x, y) = ((s + 1.0) * 0.5 * self.size as f64 - 0.5, (t + 1.0) * 0.5 * self.size as f64 - 0.5);
-        let (i, j) = (x.floor(), y.floor());
-        let (wx, wy) = ((x - i) as f32, (y - j) as f32);
-        let (i, j) = (i as isize, j as isize);
-        let [a, b, c, d] = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| self.texel(face, i + dx, j + dy));
-        std::array::from_fn(|k| {
-            let above = a[k] + (b[k] - a[k]) * wx;
-            let below = c[k] + (d[k] - c[k]) * wx;
-            above + (below - above) * wy
-        })
-    }
-
-    /// The texel of a face, whose column or row may be one outside: then it is the neighbouring face's. At a corner of
-    /// the cube, where there is no fourth texel, it is the mean of the three.
-    fn texel(&self, face: usize, i: isize, j: isize) -> [f32; 3] {
-        let last = self.size as isize - 1;
-        let (ci, cj) = (i.clamp(0, last), j.clamp(0, last));
-        match (i == ci, j == cj) {
-            (true, true) => self.at(face, i as usize, j as usize),
-            (false, false) => {
-                let three = [self.texel(face, ci, j), self.texel(face, i, cj), self.at(face, ci as usize, cj as usize)];
-                std::array::from_fn(|k| (three[0][k] + three[1][k] + three[2][k]) / 3.0)
-            }
-            _ => {
-                // The point on the edge itself, a hair outside, has the same place along the edge on both faces.
-                let place = |index: isize, inside: isize| {
-                    if index == inside {
-                        (2.0 * index as f64 + 1.0) / self.size as f64 - 1.0
-                    } else {
-                        (1.0 + 1e-9) * if index < 0 { -1.0 } else { 1.0 }
-                    }
-                };
-                let (face, s, t) = face_from_direction(direction_from_face(face, place(i, ci), place(j, cj)));
-                let index = |x: f64| (((x + 1.0) * 0.5 * self.size as f64) as usize).min(self.size - 1);
-                self.at(face, index(s), index(t))
-            }
-        }
+        interpolated(self.size, dir, |index| self.texels[index])
     }
 
     fn at(&self, face: usize, i: usize, j: usize) -> [f32; 3] {
@@ -155,6 +111,61 @@ impl Cube {
             return self.halved().resized(size);
         }
         Cube::from_fn(size, |dir| self.sample(dir))
+    }
+}
+
+/// `value(face, column, row)` for each texel of a cube, computed row by row in parallel.
+pub(crate) fn texels<T: Copy + Default + Send>(size: usize, value: impl Fn(usize, usize, usize) -> T + Sync) -> Vec<T> {
+    let mut texels = vec![T::default(); 6 * size * size];
+    texels.par_chunks_mut(size).enumerate().for_each(|(line, row)| {
+        let (face, j) = (line / size, line % size);
+        for (i, texel) in row.iter_mut().enumerate() {
+            *texel = value(face, i, j);
+        }
+    });
+    texels
+}
+
+/// The value in a direction, interpolated bilinearly between the texels `at(index)` of a cube, across its edges too.
+pub(crate) fn interpolated<const N: usize>(size: usize, dir: [f64; 3], at: impl Fn(usize) -> [f32; N]) -> [f32; N] {
+    let (face, s, t) = face_from_direction(dir);
+    let (x, y) = ((s + 1.0) * 0.5 * size as f64 - 0.5, (t + 1.0) * 0.5 * size as f64 - 0.5);
+    let (i, j) = (x.floor(), y.floor());
+    let (wx, wy) = ((x - i) as f32, (y - j) as f32);
+    let (i, j) = (i as isize, j as isize);
+    let [a, b, c, d] = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| texel(size, face, i + dx, j + dy, &at));
+    std::array::from_fn(|k| {
+        let above = a[k] + (b[k] - a[k]) * wx;
+        let below = c[k] + (d[k] - c[k]) * wx;
+        above + (below - above) * wy
+    })
+}
+
+/// The texel of a face, whose column or row may be one outside: then it is the neighbouring face's. At a corner of the
+/// cube, where there is no fourth texel, it is the mean of the three.
+fn texel<const N: usize>(size: usize, face: usize, i: isize, j: isize, at: &impl Fn(usize) -> [f32; N]) -> [f32; N] {
+    let last = size as isize - 1;
+    let (ci, cj) = (i.clamp(0, last), j.clamp(0, last));
+    let index = |face: usize, i: usize, j: usize| (face * size + j) * size + i;
+    match (i == ci, j == cj) {
+        (true, true) => at(index(face, i as usize, j as usize)),
+        (false, false) => {
+            let three = [(ci, j), (i, cj), (ci, cj)].map(|(i, j)| texel(size, face, i, j, at));
+            std::array::from_fn(|k| (three[0][k] + three[1][k] + three[2][k]) / 3.0)
+        }
+        _ => {
+            // The point on the edge itself, a hair outside, has the same place along the edge on both faces.
+            let place = |outside: isize, inside: isize| {
+                if outside == inside {
+                    (2.0 * outside as f64 + 1.0) / size as f64 - 1.0
+                } else {
+                    (1.0 + 1e-9) * if outside < 0 { -1.0 } else { 1.0 }
+                }
+            };
+            let (face, s, t) = face_from_direction(direction_from_face(face, place(i, ci), place(j, cj)));
+            let place = |x: f64| (((x + 1.0) * 0.5 * size as f64) as usize).min(size - 1);
+            at(index(face, place(s), place(t)))
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Twins of the functions of `shaders/ibl/environment.wgsl`; those that read textures there read cubes and tables here.
 
-use crate::cube::Cube;
+use crate::cube::{Cube, interpolated};
 use crate::dfg::DfgTable;
 use halfvector_brdf::Real;
 
@@ -11,6 +11,15 @@ use halfvector_brdf::Real;
 pub fn rotate_about_y<R: Real>(dir: [R; 3], cos_sin: [R; 2]) -> [R; 3] {
     let [cos, sin] = cos_sin;
     [cos * dir[0] - sin * dir[2], dir[1], sin * dir[0] + cos * dir[2]]
+}
+
+/// Level that holds a perceptual roughness when level 0 is the unfiltered environment, level 1 is prefiltered for 0.1, the
+/// last for 1, and each between them for the same multiple of the one before.
+pub fn lod_geometric<R: Real>(perceptual_roughness: R, levels: R) -> R {
+    let ten = R::of(10.0);
+    let above = R::ONE + (levels - R::of(2.0)) * ((ten * perceptual_roughness).max(R::ONE).log2() / ten.log2());
+    let below = ten * perceptual_roughness;
+    R::choose(below.lt(R::ONE), below, above).min(levels - R::ONE)
 }
 
 /// Level that holds a perceptual roughness when level i of n is prefiltered for i / (n - 1).
@@ -37,6 +46,44 @@ pub fn environment_sample(levels: &[Cube], dir: [f64; 3], lod: f64) -> [f32; 3] 
     }
     let far = levels[(mip + 1).min(last)].sample(dir);
     std::array::from_fn(|i| near[i] + (far[i] - near[i]) * t)
+}
+
+/// Radiance between two levels of which the fourth channel holds how log2(red + green + blue) changes from level to level,
+/// as a derivative; `t` is 0 at `near` and 1 at `far`.
+///
+/// Where a lobe meets a lamp the light goes with a power of its width, falling in the middle and rising outside, so that
+/// logarithms are mixed: of the colours linearly, and of their sum by Hermite's cubic, which also follows the slopes.
+/// 1e-7, less than half precision resolves, keeps black finite.
+pub fn mix_levels<R: Real>(near: [R; 4], far: [R; 4], t: R) -> [R; 3] {
+    let tiny = R::of(1e-7);
+    let sum = |texel: [R; 4]| texel[0] + texel[1] + texel[2] + tiny;
+    let rise = (sum(far) / sum(near)).log2();
+    let bend = t * (R::ONE - t) * ((R::ONE - t) * (near[3] - rise) - t * (far[3] - rise));
+    [0, 1, 2].map(|i| {
+        let (a, b) = ((near[i] + tiny).log2(), (far[i] + tiny).log2());
+        ((a + (b - a) * t + bend).exp2() - tiny).max(R::ZERO)
+    })
+}
+
+/// Radiance that arrives from a direction, prefiltered as much as the level says, from levels with slopes: see
+/// [`mix_levels`]. Below level 1, where the environment itself may be black, the mix is linear.
+///
+/// `slopes` holds a number for each texel of `levels`. `lod` is held within the levels; no levels give 0.
+pub fn environment_sample_hermite(levels: &[Cube], slopes: &[Vec<f32>], dir: [f64; 3], lod: f64) -> [f32; 3] {
+    let Some(last) = levels.len().checked_sub(1) else { return [0.0; 3] };
+    if lod.is_nan() || lod < 1.0 || slopes.len() <= last {
+        return environment_sample(levels, dir, lod);
+    }
+    let lod = lod.min(last as f64);
+    let mip = lod.floor() as usize;
+    let texel = |mip: usize| {
+        let (level, slopes) = (&levels[mip], &slopes[mip]);
+        interpolated(level.size, dir, |index| {
+            let [r, g, b] = level.texels[index];
+            [r, g, b, slopes[index]]
+        })
+    };
+    mix_levels(texel(mip), texel((mip + 1).min(last)), (lod - mip as f64) as f32)
 }
 
 /// Diffuse irradiance over pi of nine spherical-harmonic coefficients (order 2).

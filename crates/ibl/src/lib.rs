@@ -23,11 +23,13 @@ mod ktx2;
 mod load;
 mod lobe;
 pub mod occlusion;
+mod quadrature;
 mod repair;
 mod resample;
 pub mod save;
+mod sampling;
 
-pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, Quality, bake, bake_with_progress};
+pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, Prefilter, Quality, bake, bake_with_progress};
 pub use builtin::{sky, studio, white};
 pub use cube::{Cube, direction_from_face, face_from_direction, texel_solid_angle};
 pub use dfg::{DFG_SIZE, DfgTable, Visibility, dfg, dfg_table, dfg_table_with};
@@ -36,5 +38,7 @@ pub use load::{
     Format, Layout, Limits, LoadError, LoadedEnvironment, Source, StoredLevels, StoredLobe, load, load_faces,
     load_within,
 };
+pub use quadrature::Quadrature;
 pub use repair::{MAX_RADIANCE, Repairs, repair};
 pub use resample::{cube_from_equirect, equirect_from_cube};
+pub use sampling::{EnvironmentSample, EnvironmentSampler, equirect_texel_solid_angle};

@@ -119,7 +119,7 @@ mod tests {
     use super::*;
     use crate::equirect::{Equirect, direction_from_equirect};
     use crate::harmonics::{MAX_BAND, Spectrum};
-    use crate::kernel::{ggx_grid_rows, ggx_kernel};
+    use crate::kernel::Lobe;
     use crate::resample::cube_from_equirect;
 
     const MIN_ALPHA: f64 = 7.0 / MAX_BAND as f64;
@@ -137,7 +137,7 @@ mod tests {
         }
         let source = cube_from_equirect(&map, 256);
         let spectrum = Spectrum::from_equirect(&map, MAX_BAND);
-        let wide = spectrum.synthesized(&ggx_kernel(MIN_ALPHA, MAX_BAND), ggx_grid_rows(MIN_ALPHA));
+        let wide = spectrum.synthesized(&Lobe::Ggx(MIN_ALPHA).kernel(MAX_BAND), Lobe::Ggx(MIN_ALPHA).grid_rows());
         for alpha in [0.0012, 0.0025, 0.006] {
             let lobe = NarrowLobe::new(&source, alpha, MIN_ALPHA);
             let mut errors = Vec::new();

@@ -71,13 +71,13 @@ impl<'e> EnvironmentTextures<'e> {
     /// The prefiltered radiance; its level 0 is the environment itself.
     pub(crate) fn radiance(&mut self, gpu: &Gpu) -> Result<wgpu::TextureView, RenderError> {
         let baked = self.baked.ok_or(RenderError::NoEnvironment)?;
-        Ok(self.radiance.get_or_insert_with(|| texture::cube(gpu, &baked.radiance)).clone())
+        Ok(self.radiance.get_or_insert_with(|| texture::cube(gpu, &baked.radiance, &baked.slope)).clone())
     }
 
     fn irradiance(&mut self, gpu: &Gpu) -> Result<wgpu::TextureView, RenderError> {
         let baked = self.baked.ok_or(RenderError::NoEnvironment)?;
         let levels = std::slice::from_ref(&baked.irradiance_over_pi);
-        Ok(self.irradiance.get_or_insert_with(|| texture::cube(gpu, levels)).clone())
+        Ok(self.irradiance.get_or_insert_with(|| texture::cube(gpu, levels, &[])).clone())
     }
 
     fn dfg(&mut self, gpu: &Gpu) -> wgpu::TextureView {

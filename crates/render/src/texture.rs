@@ -56,12 +56,14 @@ pub(crate) fn image(
     Ok(texture.create_view(&Default::default()))
 }
 
-/// A cube with one level for each cube of `levels`; each has half the size of the one before. 16-bit floats.
-pub(crate) fn cube(gpu: &Gpu, levels: &[Cube]) -> wgpu::TextureView {
+/// A cube with one level for each cube of `levels`; each has half the size of the one before. 16-bit floats. The fourth
+/// channel is each level's slopes where there are any, else 1.
+pub(crate) fn cube(gpu: &Gpu, levels: &[Cube], slopes: &[Vec<f32>]) -> wgpu::TextureView {
     let size = levels.first().map_or(1, |cube| cube.size as u32);
     let texture = new_texture(gpu, wgpu::TextureFormat::Rgba16Float, [size, size, 6], levels.len().max(1) as u32);
     for (level, cube) in levels.iter().enumerate() {
-        let bytes = f16_bytes(cube.texels.iter().map(|&[r, g, b]| [r, g, b, 1.0]));
+        let slope = |texel: usize| slopes.get(level).map_or(1.0, |slopes| slopes[texel]);
+        let bytes = f16_bytes(cube.texels.iter().enumerate().map(|(i, &[r, g, b])| [r, g, b, slope(i)]));
         write(gpu, &texture, level as u32, [cube.size as u32, cube.size as u32, 6], &bytes);
     }
     texture.create_view(&wgpu::TextureViewDescriptor {

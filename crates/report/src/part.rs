@@ -2,6 +2,7 @@
 
 pub mod brdf;
 pub mod energy;
+pub mod ibl;
 pub mod maps;
 pub mod mips;
 
@@ -21,4 +22,5 @@ pub const PARTS: &[Part] = &[
     Part { name: "energy", rows: energy::rows },
     Part { name: "maps", rows: maps::rows },
     Part { name: "mips", rows: mips::rows },
+    Part { name: "ibl", rows: ibl::rows },
 ];

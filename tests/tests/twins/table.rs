@@ -52,6 +52,7 @@ pub(crate) const WGSL_ONLY: &[(&str, &str)] = &[
     ("cos_sin_atan2", "private in Rust: compared through both normal_rotation functions"),
     ("dfg_from_table", "takes a texture"),
     ("environment_sample", "takes a texture"),
+    ("environment_sample_hermite", "takes a texture"),
     ("film_channel", "private in Rust: compared through f_thin_film"),
     ("film_lobe", "private in Rust: compared through f_thin_film"),
     ("film_quotient", "private in Rust: compared through f_thin_film"),
@@ -234,8 +235,12 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("ibl/environment.wgsl" "irradiance_sh2", [Harmonics, Unit], 32.0, 1.0, DOUBLE, |x| {
         environment::irradiance_sh2([0, 1, 2, 3, 4, 5, 6, 7, 8].map(|i| v(x, 4 * i)), v(x, 36))
     }),
+    twin!("ibl/environment.wgsl" "lod_geometric", [Roughness, Range(2.0, 12.0)], 32.0, 0.1, FLOAT, |x| [environment::lod_geometric(x[0], x[1])]),
     twin!("ibl/environment.wgsl" "lod_linear", [Roughness, Range(1.0, 12.0)], 2.0, 0.0, DOUBLE, |x| [environment::lod_linear(x[0], x[1])]),
     twin!("ibl/environment.wgsl" "lod_report", [Roughness, Range(1.0, 12.0)], 2.0, 0.0, DOUBLE, |x| [environment::lod_report(x[0], x[1])]),
+    twin!("ibl/environment.wgsl" "mix_levels", [Color(0.0, 1e3), Range(-4.0, 4.0), Color(0.0, 1e3), Range(-4.0, 4.0), Range(0.0, 1.0)], 256.0, 0.01, FLOAT, |x| {
+        environment::mix_levels(v(x, 0), v(x, 4), x[8])
+    }),
     twin!("ibl/environment.wgsl" "rotate_about_y", [Unit, Pair(-1.0, 1.0)], 4.0, 1.0, DOUBLE, |x| environment::rotate_about_y(v(x, 0), v(x, 3))),
     twin!("ibl/occlusion.wgsl" "horizon_cone", [Range(-1.0, 1.0), Range(0.0, 1.0), Cosine, Roughness], 64.0, 1.0, DOUBLE, |x| [occlusion::horizon_cone(x[0], x[1], x[2], x[3])]),
     twin!("ibl/occlusion.wgsl" "horizon_squared", [Range(-1.0, 1.0), Range(0.0, 1.0), Cosine, Roughness], 4.0, 1.0, DOUBLE, |x| [occlusion::horizon_squared(x[0], x[1], x[2], x[3])]),

@@ -116,7 +116,8 @@ pub(crate) fn run(args: &BakeArgs) -> Result<u8, Failure> {
         let baked = bake_with_bar(&loaded, &plan.options);
         if kept.is_none() {
             let (levels, roughness) = plan.levels(&baked);
-            let cube = CubeLevels::radiance(&levels, roughness);
+            // A bake that has slopes has the file's levels, none skipped or resized.
+            let cube = CubeLevels { slope: &baked.slope, ..CubeLevels::radiance(&levels, roughness) };
             files.push(file(&args.output, coded(args.output.format, cube, args.texels, &baked))?);
             let numbers: Vec<String> = roughness.iter().map(|r| format!("{r:.3}")).collect();
             said = format!("{} texels, {} levels for roughness {}", levels[0].size, levels.len(), numbers.join(" "));

@@ -267,7 +267,9 @@ impl Shading<'_, '_, '_> {
         let encode =
             if methods.is("encode", "report") { Some(self.writer.library("gamma_from_linear")?) } else { None };
         let encoded = |sample: String| encode.map_or_else(|| sample.clone(), |encode| format!("{encode}({sample})"));
-        let lod = self.writer.library(methods.get("level_map").function.unwrap_or("lod_linear"))?;
+        let lod = self.writer.library(methods.get("level_map").function.unwrap_or("lod_geometric"))?;
+        let mixed =
+            if methods.is("level_map", "hermite") { "environment_sample_hermite" } else { "environment_sample" };
         let mirror = plan.specular || (plan.diffuse && last_level);
         if mirror {
             let mut mirror = "reflect(-frame.view_dir, frame.normal)".to_owned();
@@ -289,7 +291,7 @@ impl Shading<'_, '_, '_> {
                 "last_level" => {
                     let levels = self.writer.view(ViewMember::EnvironmentLevels);
                     let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
-                    let sample = self.writer.library("environment_sample")?;
+                    let sample = self.writer.library(mixed)?;
                     encoded(format!("{sample}({cube}, reflection_dir, {lod}(1.0, {levels}))"))
                 }
                 _ => {
@@ -312,7 +314,7 @@ impl Shading<'_, '_, '_> {
         if plan.specular {
             let levels = self.writer.view(ViewMember::EnvironmentLevels);
             let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
-            let sample = self.writer.library("environment_sample")?;
+            let sample = self.writer.library(mixed)?;
             self.line(&format!("let reflection_lod = {lod}({roughness}, {levels});"));
             let reflection = encoded(format!("{sample}({cube}, reflection_dir, reflection_lod)"));
             self.line(&format!("let reflection = {reflection};"));

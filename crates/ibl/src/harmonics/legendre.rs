@@ -37,10 +37,18 @@ impl Order {
         Order { m, start: start.sqrt(), factors }
     }
 
-    /// Calls `each(l - m, P_lm)` for l = m ..= band. Returns at once where sin^m is below 1e-280: there all degrees that
-    /// this crate uses (up to about a thousand) are below 1e-100.
+    /// Calls `two((l - m) / 2, P_lm, P_(l+1)m)` for every second l from m to the band; at its end the second may be 0.
+    ///
+    /// Returns at once where the functions are too small to matter: close to the poles, where m > l sin theta, they fall
+    /// like Airy's function over a width of cbrt(m) (Schaeffer 2013, "Efficient spherical harmonic transforms aimed at
+    /// pseudospectral numerical simulations", polar optimisation), and where sin^m is below 1e-280.
     #[inline(always)]
-    pub(super) fn each(&self, cos: &Lanes, sin: &Lanes, mut each: impl FnMut(usize, &Lanes)) {
+    pub(super) fn each_two(&self, cos: &Lanes, sin: &Lanes, mut two: impl FnMut(usize, &Lanes, &Lanes)) {
+        let band = (self.m + self.factors.len()) as f64;
+        let widest = sin.iter().fold(0.0f64, |a, &b| a.max(b));
+        if self.m as f64 > band * widest + 10.0 + 8.0 * band.cbrt() {
+            return;
+        }
         let power = sin.map(|s| {
             let power = s.powi(self.m as i32);
             // Denormal numbers would be slow.
@@ -49,17 +57,26 @@ impl Order {
         if power.iter().all(|&p| p == 0.0) {
             return;
         }
-        let mut before = [0.0; LANES];
-        let mut p = power.map(|x| x * self.start);
-        each(0, &p);
-        for (k, &(a, b)) in self.factors.iter().enumerate() {
+        let mut odd = [0.0; LANES];
+        let mut even = power.map(|x| x * self.start);
+        let step = |(a, b): (f64, f64), p: &Lanes, before: &Lanes| {
             let mut next = [0.0; LANES];
             for i in 0..LANES {
                 next[i] = a * cos[i] * p[i] - b * before[i];
             }
-            (p, before) = (next, p);
-            each(k + 1, &p);
+            next
+        };
+        let mut k = 0;
+        let steps = self.factors.chunks_exact(2);
+        let last = steps.remainder();
+        for pair in steps {
+            odd = step(pair[0], &even, &odd);
+            two(k, &even, &odd);
+            even = step(pair[1], &odd, &even);
+            k += 1;
         }
+        odd = last.first().map_or([0.0; LANES], |&factors| step(factors, &even, &odd));
+        two(k, &even, &odd);
     }
 }
 
@@ -78,7 +95,12 @@ mod tests {
             let mut gram = vec![0.0; count * count];
             for &(x, w) in &nodes {
                 let mut p = vec![0.0; count];
-                order.each(&[x; LANES], &[(1.0 - x * x).sqrt(); LANES], |k, lanes| p[k] = lanes[0]);
+                order.each_two(&[x; LANES], &[(1.0 - x * x).sqrt(); LANES], |k, even, odd| {
+                    p[2 * k] = even[0];
+                    if let Some(p) = p.get_mut(2 * k + 1) {
+                        *p = odd[0];
+                    }
+                });
                 for i in 0..count {
                     for j in 0..count {
                         gram[i * count + j] += 2.0 * PI * w * p[i] * p[j];

@@ -51,26 +51,10 @@ impl Spectrum {
             .into_par_iter()
             .map(|m| {
                 let order = Order::new(m, band);
-                let mut sums = vec![[0.0; 6]; band - m + 1];
-                for block in &blocks {
-                    // Functions with even l - m are the same on both halves of the sphere, the others change sign.
-                    let mut even = [[0.0; LANES]; 6];
-                    let mut odd = [[0.0; LANES]; 6];
-                    for i in 0..LANES {
-                        let (north, south) = (&rows[block.north[i]][m], &rows[block.south[i]][m]);
-                        for c in 0..6 {
-                            even[c][i] = block.weight[i] * (north[c] + south[c]);
-                            odd[c][i] = block.weight[i] * (north[c] - south[c]);
-                        }
-                    }
-                    order.each(&block.cos, &block.sin, |k, p| {
-                        let values = if k % 2 == 0 { &even } else { &odd };
-                        for (sum, value) in sums[k].iter_mut().zip(values) {
-                            *sum += dot(p, value);
-                        }
-                    });
-                }
-                sums
+                pulp::Arch::new().dispatch(
+                    #[inline(always)]
+                    || order_sums(&order, band - m + 1, m, &rows, &blocks),
+                )
             })
             .collect();
         Spectrum { orders }
@@ -87,11 +71,16 @@ impl Spectrum {
     /// The map of the environment convolved with a zonal kernel, whose numbers k_l stand in `kernel` (further ones are 0),
     /// on a grid of `rows` latitudes and twice as many longitudes. `rows` is a power of two.
     pub(crate) fn synthesized(&self, kernel: &[f64], rows: usize) -> Grid {
+        self.synthesized_with_grey(kernel, &vec![0.0; kernel.len()], rows)
+    }
+
+    /// [`Spectrum::synthesized`] with a fourth channel: the sum of the three colours convolved with a kernel of its own.
+    pub(crate) fn synthesized_with_grey(&self, kernel: &[f64], grey: &[f64], rows: usize) -> Grid {
         let rows = rows.next_power_of_two().max(2);
         let columns = 2 * rows;
         let latitudes = rows / 2;
         // `halves[m]` holds the sums over l for each latitude: north, then south.
-        let halves: Vec<Vec<Channels>> = self
+        let halves: Vec<Vec<[f64; 8]>> = self
             .orders
             .par_iter()
             .take(kernel.len())
@@ -99,21 +88,17 @@ impl Spectrum {
             .map(|(m, coefficients)| {
                 let band = (m + coefficients.len()).min(kernel.len()) - 1;
                 let order = Order::new(m, band);
-                let scaled: Vec<Channels> =
-                    coefficients.iter().zip(&kernel[m..]).map(|(c, k)| c.map(|x| x * k)).collect();
-                let mut sums = vec![[0.0; 6]; rows];
+                // Even and odd l - m in pairs, the last with 0.
+                let mut scaled = vec![[[0.0; 8]; 2]; (band - m) / 2 + 1];
+                for (i, ([a, b, c, d, e, f], (k, g))) in
+                    coefficients.iter().zip(kernel[m..].iter().zip(&grey[m..])).enumerate()
+                {
+                    scaled[i / 2][i % 2] = [k * a, k * b, k * c, k * d, k * e, k * f, g * (a + c + e), g * (b + d + f)];
+                }
+                let mut sums = vec![[0.0; 8]; rows];
                 for first in (0..latitudes).step_by(LANES) {
                     let theta: Lanes = std::array::from_fn(|i| PI * ((first + i) as f64 + 0.5) / rows as f64);
-                    let mut even = [[0.0; LANES]; 6];
-                    let mut odd = [[0.0; LANES]; 6];
-                    order.each(&theta.map(f64::cos), &theta.map(f64::sin), |k, p| {
-                        let values = if k % 2 == 0 { &mut even } else { &mut odd };
-                        for (value, factor) in values.iter_mut().zip(&scaled[k]) {
-                            for i in 0..LANES {
-                                value[i] += factor * p[i];
-                            }
-                        }
-                    });
+                    let [even, odd] = evaluated(&order, &scaled, &theta);
                     for i in 0..LANES.min(latitudes - first) {
                         let row = first + i;
                         sums[row] = std::array::from_fn(|c| even[c][i] + odd[c][i]);
@@ -127,36 +112,85 @@ impl Spectrum {
         let texels = (0..rows)
             .into_par_iter()
             .flat_map_iter(|row| {
-                // Two real functions f and g travel as f + i g: `pair` = (red, green), `single` = (blue, nothing).
-                let mut pair = vec![[0.0; 2]; columns];
-                let mut single = vec![[0.0; 2]; columns];
+                // Two real functions f and g travel as f + i g.
+                let mut red_green = vec![[0.0; 2]; columns];
+                let mut blue_grey = vec![[0.0; 2]; columns];
                 for (m, sums) in halves.iter().enumerate() {
                     let s = sums[row];
                     let (sin, cos) = (m as f64 * (PI / columns as f64 - PI)).sin_cos();
                     let turned = |re: f64, im: f64| [re * cos - im * sin, re * sin + im * cos];
-                    let [r, g, b] = [turned(s[0], s[1]), turned(s[2], s[3]), turned(s[4], s[5])];
+                    let [r, g, b, y] = [0, 2, 4, 6].map(|i| turned(s[i], s[i + 1]));
                     // Orders beyond the grid's own fold onto those it has: at its points they are the same functions.
                     let bin = m % columns;
-                    add(&mut pair[bin], [r[0] - g[1], r[1] + g[0]]);
-                    add(&mut single[bin], b);
+                    add(&mut red_green[bin], [r[0] - g[1], r[1] + g[0]]);
+                    add(&mut blue_grey[bin], [b[0] - y[1], b[1] + y[0]]);
                     if m > 0 {
                         let bin = (columns - bin) % columns;
-                        add(&mut pair[bin], [r[0] + g[1], g[0] - r[1]]);
-                        add(&mut single[bin], [b[0], -b[1]]);
+                        add(&mut red_green[bin], [r[0] + g[1], g[0] - r[1]]);
+                        add(&mut blue_grey[bin], [b[0] + y[1], y[0] - b[1]]);
                     }
                 }
-                fourier.backward(&mut pair);
-                fourier.backward(&mut single);
-                pair.into_iter().zip(single).map(|([r, g], [b, _])| [r as f32, g as f32, b as f32])
+                fourier.backward(&mut red_green);
+                fourier.backward(&mut blue_grey);
+                red_green.into_iter().zip(blue_grey).map(|([r, g], [b, y])| [r, g, b, y].map(|x| x as f32))
             })
             .collect();
         Grid { rows, texels }
     }
 }
 
+/// The sums over even and over odd l - m of coefficient times P_lm, at the polar angles `theta`.
+fn evaluated(order: &Order, coefficients: &[[[f64; 8]; 2]], theta: &Lanes) -> [[Lanes; 8]; 2] {
+    pulp::Arch::new().dispatch(
+        #[inline(always)]
+        || {
+            let mut sums = [[[0.0; LANES]; 8]; 2];
+            let [even, odd] = &mut sums;
+            order.each_two(&theta.map(f64::cos), &theta.map(f64::sin), |k, p, q| {
+                let [a, b] = &coefficients[k];
+                for c in 0..8 {
+                    for i in 0..LANES {
+                        even[c][i] += a[c] * p[i];
+                    }
+                    for i in 0..LANES {
+                        odd[c][i] += b[c] * q[i];
+                    }
+                }
+            });
+            sums
+        },
+    )
+}
+
 fn add(sum: &mut Complex, x: Complex) {
     sum[0] += x[0];
     sum[1] += x[1];
+}
+
+/// The sums over all latitudes of P_lm times the rows' order m, for each degree l.
+#[inline(always)]
+fn order_sums(order: &Order, degrees: usize, m: usize, rows: &[Vec<Channels>], blocks: &[NodeBlock]) -> Vec<Channels> {
+    let mut sums = vec![[[0.0; 6]; 2]; degrees.div_ceil(2)];
+    for block in blocks {
+        // Functions with even l - m are the same on both halves of the sphere, the others change sign.
+        let mut values = [[[0.0; LANES]; 6]; 2];
+        for i in 0..LANES {
+            let (north, south) = (&rows[block.north[i]][m], &rows[block.south[i]][m]);
+            for c in 0..6 {
+                values[0][c][i] = block.weight[i] * (north[c] + south[c]);
+                values[1][c][i] = block.weight[i] * (north[c] - south[c]);
+            }
+        }
+        order.each_two(&block.cos, &block.sin, |k, p, q| {
+            for c in 0..6 {
+                sums[k][0][c] += dot(p, &values[0][c]);
+                sums[k][1][c] += dot(q, &values[1][c]);
+            }
+        });
+    }
+    let mut sums = sums.into_flattened();
+    sums.truncate(degrees);
+    sums
 }
 
 /// The sum of products, in a fixed order that vector units can follow.
@@ -219,7 +253,7 @@ fn row_spectra(map: &Equirect, band: usize) -> Vec<Vec<Channels>> {
 /// function, which turns `band` times half round from pole to pole, is followed.
 fn node_blocks(rows: usize, band: usize) -> Vec<NodeBlock> {
     let row_angle = PI / rows as f64;
-    let rule = gauss_legendre((band as f64 * row_angle / 2.0).ceil() as usize + 2);
+    let rule = gauss_legendre((0.75 * band as f64 * row_angle / 2.0).ceil() as usize + 2);
     let mut nodes = Vec::new();
     for row in 0..rows.div_ceil(2) {
         for &(x, w) in &rule {
@@ -254,12 +288,19 @@ fn node_blocks(rows: usize, band: usize) -> Vec<NodeBlock> {
 /// A smooth map, read by cubic interpolation.
 pub(crate) struct Grid {
     rows: usize,
-    texels: Vec<[f32; 3]>,
+    /// Red, green, blue and the grey channel.
+    texels: Vec<[f32; 4]>,
 }
 
 impl Grid {
-    /// The value in a direction: the cubic through four neighbours in each way. Never below 0.
+    /// The colour in a direction: the cubic through four neighbours in each way. Never below 0.
     pub(crate) fn sample(&self, dir: [f64; 3]) -> [f32; 3] {
+        let [r, g, b, _] = self.sample_with_grey(dir);
+        [r, g, b]
+    }
+
+    /// [`Grid::sample`] with the grey channel, which may be below 0.
+    pub(crate) fn sample_with_grey(&self, dir: [f64; 3]) -> [f32; 4] {
         let columns = 2 * self.rows;
         let (u, v) = equirect_from_direction(dir);
         let (x, y) = (u * columns as f64 - 0.5, v * self.rows as f64 - 0.5);
@@ -268,7 +309,7 @@ impl Grid {
         let (column, row) = (column as isize, row as isize);
         // Columns are a power of two, so the mask wraps negative ones too.
         let wrap = |column: isize| column as usize & (columns - 1);
-        let mut sum = [0.0f32; 3];
+        let mut sum = [0.0f32; 4];
         for (dy, wy) in wy.into_iter().enumerate() {
             let row = row + dy as isize - 1;
             let (row, turn) = if row < 0 {
@@ -281,12 +322,12 @@ impl Grid {
             let line = &self.texels[row as usize * columns..][..columns];
             for (dx, wx) in wx.into_iter().enumerate() {
                 let texel = line[wrap(column + dx as isize - 1 + turn)];
-                for c in 0..3 {
+                for c in 0..4 {
                     sum[c] += wx * wy * texel[c];
                 }
             }
         }
-        sum.map(|x| x.max(0.0))
+        [sum[0].max(0.0), sum[1].max(0.0), sum[2].max(0.0), sum[3]]
     }
 }
 

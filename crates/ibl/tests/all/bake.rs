@@ -1,9 +1,10 @@
 //! Properties of a bake that need no truth: white stays white, no seams, no chance, hard cases.
 
-use halfvector_ibl::environment::{dfg_from_table, environment_sample, irradiance_sh2};
+use halfvector_ibl::environment::{dfg_from_table, environment_sample, environment_sample_hermite, irradiance_sh2};
 use halfvector_ibl::{
-    BakeOptions, Cube, DFG_SIZE, Equirect, LevelMap, Visibility, bake, bake_with_progress, cube_from_equirect, dfg, dfg_table,
-    direction_from_equirect, direction_from_face, face_from_direction, sky, studio, texel_solid_angle, white,
+    BakeOptions, BakedEnvironment, Cube, DFG_SIZE, Equirect, LevelMap, Prefilter, Visibility, bake, bake_with_progress,
+    cube_from_equirect, dfg, dfg_table, direction_from_equirect, direction_from_face, face_from_direction, sky, studio,
+    texel_solid_angle, white,
 };
 use std::f64::consts::PI;
 
@@ -14,7 +15,9 @@ fn small(size: usize) -> BakeOptions {
 #[test]
 fn white_is_one() {
     let baked = bake(&white(), &small(64));
-    assert_eq!(baked.roughness, [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]);
+    let rising = [0.0, 0.1, 0.215_443_47, 0.464_158_9, 1.0];
+    assert!(baked.roughness.iter().zip(rising).all(|(a, b)| (a - b).abs() < 1e-6), "{:?}", baked.roughness);
+    assert!(baked.slope.iter().flatten().all(|slope| slope.abs() < 1e-4));
     for cube in baked.radiance.iter().chain([&baked.irradiance_over_pi]) {
         for x in cube.texels.iter().flatten() {
             assert!((x - 1.0).abs() < 1e-5, "{x}");
@@ -163,16 +166,29 @@ fn hard_maps() {
         let dark = cube.sample(away)[0];
         assert!((dark - 0.1).abs() < 2e-3, "roughness {roughness}: {dark} on the dark side");
         assert!(cube.texels.iter().flatten().all(|&x| (0.0..65504.0).contains(&x)));
+        // At 0.1 the lobe is narrower than the lamp and than the face's texels.
+        if roughness < 0.2 {
+            continue;
+        }
         // A far lamp through a GGX lobe: what the kernel says, texel by texel.
         let alpha = f64::from(roughness).powi(2);
         let kernel = |cos: f64| cos.max(0.0) / ((1.0 - cos) * (1.0 - alpha * alpha) / 2.0 + alpha * alpha).powi(2);
         let steps = 200_000;
         let whole: f64 =
             (0..steps).map(|i| kernel((i as f64 + 0.5) / steps as f64) / steps as f64).sum::<f64>() * 2.0 * PI;
-        let peak = 0.1 + (0.1 * 4.0 * PI - 0.1 * area) * kernel(1.0) / whole;
-        let value = f64::from(cube.sample(dir)[0]);
+        // At the centre of the texel, which is beside the lamp.
+        let (face, s, t) = face_from_direction(dir);
+        let centre = |x: f64| {
+            let n = cube.size as f64;
+            (((x + 1.0) / 2.0 * n).floor() * 2.0 + 1.0) / n - 1.0
+        };
+        let seen = direction_from_face(face, centre(s), centre(t));
+        let length = seen.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let cos = (0..3).map(|i| seen[i] * dir[i]).sum::<f64>() / length;
+        let peak = 0.1 + (0.1 * 4.0 * PI - 0.1 * area) * kernel(cos) / whole;
+        let value = f64::from(cube.sample(seen)[0]);
         println!("roughness {roughness}: {value} towards the lamp, a point lamp gives {peak}");
-        assert!((value / peak - 1.0).abs() < 0.04, "roughness {roughness}: {value} for {peak}");
+        assert!((value / peak - 1.0).abs() < 0.08, "roughness {roughness}: {value} for {peak}");
     }
 
     let full = Equirect { width: 1, height: 1, pixels: vec![[65504.0; 3]] };
@@ -188,23 +204,25 @@ fn any_options() {
     let environment = white();
     for size in [0, 1, 3, 17] {
         for level_map in [
+            LevelMap::Geometric,
             LevelMap::Linear,
             LevelMap::Report,
             LevelMap::Listed(vec![]),
             LevelMap::Listed(vec![f32::NAN, -1.0, 9.0, 0.3]),
         ] {
             for levels in [None, Some(0), Some(3)] {
-                let level_map = level_map.clone();
                 let options = BakeOptions {
                     size,
                     levels,
-                    level_map,
+                    level_map: level_map.clone(),
                     decode_report: true,
                     irradiance_size: 0,
                     ..BakeOptions::default()
                 };
                 let baked = bake(&environment, &options);
                 assert_eq!(baked.radiance.len(), baked.roughness.len());
+                let slopes = if level_map == LevelMap::Geometric { baked.radiance.len() } else { 0 };
+                assert_eq!(baked.slope.len(), slopes);
                 for (i, level) in baked.radiance.iter().enumerate() {
                     assert_eq!(level.size, (size >> i).max(1));
                     assert_eq!(level.texels.len(), 6 * level.size * level.size);
@@ -213,9 +231,11 @@ fn any_options() {
             }
         }
     }
-    let levels = bake(&environment, &small(16)).radiance;
+    let BakedEnvironment { radiance: levels, slope, .. } = bake(&environment, &small(16));
     for lod in [f64::NAN, -1.0, 0.0, 0.5, 99.0, f64::INFINITY] {
         assert!((environment_sample(&levels, [0.0, 0.0, 0.0], lod)[0] - 1.0).abs() < 1e-5);
+        let seen = environment_sample_hermite(&levels, &slope, [0.0, 0.0, 0.0], lod)[0];
+        assert!((seen - 1.0).abs() < 1e-4, "{lod}: {seen}");
     }
 }
 
@@ -231,6 +251,34 @@ fn report_levels() {
         let (last, diffuse) = (baked.radiance[5].sample(dir)[0], baked.irradiance_over_pi.sample(dir)[0]);
         assert!((last / diffuse - 1.0).abs() < 0.02, "{last} for {diffuse}");
     }
+}
+
+/// The lobes that are not GGX: white stays white, and HDRE's powers of the cosine are what its formula says.
+#[test]
+fn other_lobes() {
+    let options = |prefilter, level_map| BakeOptions { prefilter, level_map, ..small(64) };
+    for (prefilter, level_map) in [(Prefilter::Hdre, LevelMap::Report), (Prefilter::Charlie, LevelMap::Linear)] {
+        for cube in bake(&white(), &options(prefilter, level_map)).radiance {
+            assert!(cube.texels.iter().flatten().all(|x| (x - 1.0).abs() < 1e-5), "{prefilter:?}");
+        }
+    }
+    // The environment y + 1: a lobe keeps its mean, and k_1 of y; (p + 1) / (p + 2) for a power p of the cosine.
+    let map = Equirect::from_fn(256, 128, |d| [(d[1] + 1.0) as f32; 3]);
+    let baked = bake(&map.clone().into(), &options(Prefilter::Hdre, LevelMap::Report));
+    for (i, cube) in baked.radiance.iter().enumerate().skip(1) {
+        let r: f64 = ((i + 1) as f64 / 6.0).min(0.98);
+        let power = 8.0 * (1.0 - r) * 64.0 / (5.0 * r).exp2();
+        let dir = [1.0, 1.0 / 3.0, -0.2];
+        let (value, y) = (f64::from(cube.sample(dir)[0]), dir[1] / (1.0f64 + dir[1] * dir[1] + 0.04).sqrt());
+        // The smallest faces have two texels.
+        let allowed = if cube.size < 32 { 0.2 / cube.size as f64 } else { 3e-3 };
+        let exact = 1.0 + y * (power + 1.0) / (power + 2.0);
+        assert!((value - exact).abs() < allowed, "level {i}: {value} for {exact}");
+    }
+    // Smooth sheen sees the horizon, rough sheen half of the light above.
+    let baked = bake(&map.into(), &options(Prefilter::Charlie, LevelMap::Linear));
+    let above = |level: usize| baked.radiance[level].sample([0.0, 1.0, 0.0])[0];
+    assert!(above(0) < 1.05 && above(2) > 1.2 && above(2) < 1.6, "{} {}", above(0), above(2));
 }
 
 /// Both built-in pictures have the brightness and the range that their documentation states.

@@ -5,9 +5,12 @@ mod albedo;
 mod bake;
 mod exr;
 mod files;
+mod hard;
 mod occlusion;
 mod peers;
 mod save;
+mod sampling;
+mod seen;
 mod truth;
 
 use std::path::PathBuf;
@@ -37,4 +40,22 @@ fn relative_errors(value: [f32; 3], truth: [f64; 3], mean: [f64; 3]) -> [f64; 3]
 /// Root of the mean square.
 fn rms(errors: &[f64]) -> f64 {
     (errors.iter().map(|e| e * e).sum::<f64>() / errors.len().max(1) as f64).sqrt()
+}
+
+/// The environments that the tables belong to.
+const ENVIRONMENTS: [&str; 4] = ["bpy_city", "bpy_interior", "bpy_night", "bpy_studio"];
+
+fn environment(name: &str) -> Option<halfvector_ibl::LoadedEnvironment> {
+    let path = format!("env/{name}.exr");
+    Some(halfvector_ibl::load(&data_file(&path)?, &path).expect("the file is sound"))
+}
+
+/// Three columns of a table's row.
+fn numbers(row: &[String], at: usize) -> [f64; 3] {
+    std::array::from_fn(|i| row[at + i].parse().expect("a number"))
+}
+
+/// Our frame from the tables'.
+fn mirrored([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [z, y, x]
 }

@@ -1,0 +1,98 @@
+//! CPU seconds of a bake against cmgen (Filament's tool, Debian package `libfilament-tools`): the same map, 256-texel
+//! faces, interleaved runs, medians. cmgen's time is for its levels alone; ours has levels, irradiance and harmonics.
+//!
+//! `cargo bench -p halfvector-benches --bench prefilter_peers [-- FILE.hdr]`; without a file, the sky of this project.
+
+use halfvector_ibl::{BakeOptions, Equirect, LoadedEnvironment, Quality, Source, bake};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Runs of each; the median counts.
+const RUNS: usize = 3;
+
+fn main() {
+    memory();
+    let file = std::env::args().skip(1).find(|argument| !argument.starts_with('-')).map(PathBuf::from);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (environment, path) = match file {
+        Some(path) => {
+            let bytes = std::fs::read(&path).expect("the file can be read");
+            (halfvector_ibl::load(&bytes, &path.display().to_string()).expect("an environment"), path)
+        }
+        None => {
+            let sky = halfvector_ibl::sky();
+            let path = folder.path().join("sky.hdr");
+            write_hdr(&sky, &path);
+            (sky, path)
+        }
+    };
+    let mut seconds = [const { Vec::new() }; 4];
+    for _ in 0..RUNS {
+        for (times, quality) in seconds.iter_mut().zip([Quality::Preview, Quality::Default, Quality::Best]) {
+            let options = BakeOptions { size: 256, quality, ..BakeOptions::default() };
+            let before = cpu_seconds(false);
+            let baked = bake(&environment, &options);
+            times.push(cpu_seconds(false) - before);
+            assert!(baked.radiance.len() > 1);
+        }
+        let before = cpu_seconds(true);
+        let made = Command::new("cmgen")
+            .args(["--quiet", "--size=256", "--ibl-samples=1024"])
+            .arg(format!("--ibl-ld={}", folder.path().display()))
+            .arg(&path)
+            .stdout(Stdio::null())
+            .status();
+        match made {
+            Ok(status) if status.success() => seconds[3].push(cpu_seconds(true) - before),
+            _ => println!("cmgen is not installed, or failed: its row is left out"),
+        }
+    }
+    let medians = seconds.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times.get(times.len() / 2).copied()
+    });
+    for (name, time) in ["preview", "default", "best", "cmgen, 1,024 samples, levels alone"].iter().zip(medians) {
+        if let (Some(time), Some(cmgen)) = (time, medians[3]) {
+            println!("{name}: {time:.2} CPU s, 1/{:.1} of cmgen", cmgen / time);
+        } else if let Some(time) = time {
+            println!("{name}: {time:.2} CPU s");
+        }
+    }
+}
+
+/// The most memory that a bake of an 8,192 x 4,096 map to 512-texel faces takes, as a multiple of the map itself.
+fn memory() {
+    let map = Equirect::from_fn(8192, 4096, |dir| dir.map(|x| (1.0 + x) as f32));
+    let bytes = (map.pixels.len() * size_of::<[f32; 3]>()) as f64;
+    let environment = LoadedEnvironment::from(map);
+    let baked = bake(&environment, &BakeOptions::default());
+    assert!(baked.radiance.len() > 1);
+    let status = std::fs::read_to_string("/proc/self/status").expect("a Linux machine");
+    let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("proc(5)");
+    let most: f64 = most.trim().trim_end_matches(" kB").parse().expect("a number");
+    println!("8,192 x 4,096 to 512: at most {:.2} times the map's {:.0} MB", most * 1024.0 / bytes, bytes / 1e6);
+}
+
+/// User and system time of this process, or of the children it has waited for, in seconds (Linux: proc(5), in hundredths).
+fn cpu_seconds(children: bool) -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").expect("a Linux machine");
+    // The name in parentheses may hold spaces; what follows it starts with field 3.
+    let fields: Vec<&str> = stat.rsplit(')').next().expect("a name").split_whitespace().collect();
+    let ticks = |field: usize| fields[field - 3].parse::<f64>().expect("a number");
+    let first = if children { 16 } else { 14 };
+    (ticks(first) + ticks(first + 1)) / 100.0
+}
+
+/// The map as a Radiance file without compression.
+fn write_hdr(environment: &LoadedEnvironment, path: &Path) {
+    let Source::Equirect(map) = &environment.source else { unreachable!("the sky is a map") };
+    let mut bytes = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", map.height, map.width).into_bytes();
+    for &[r, g, b] in &map.pixels {
+        let most = r.max(g).max(b);
+        let exponent = if most > 1e-30 { most.log2().floor() as i32 + 1 } else { -127 };
+        let scale = (8.0 - exponent as f32).exp2();
+        bytes.extend([r, g, b].map(|x| (x * scale) as u8));
+        bytes.push((exponent + 128) as u8);
+    }
+    std::fs::write(path, bytes).expect("the temporary folder can be written");
+}

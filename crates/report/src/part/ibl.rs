@@ -1,0 +1,207 @@
+//! Light of environments: levels, what is seen between them, diffuse light; on the two environments of our own, against
+//! sums over every texel.
+
+use crate::error::Errors;
+use crate::timing::interleaved;
+use crate::{Effort, Row};
+use halfvector_ibl::environment::{
+    environment_sample, environment_sample_hermite, irradiance_sh2, lod_geometric, lod_linear, lod_report,
+};
+use halfvector_ibl::{
+    BakeOptions, BakedEnvironment, LevelMap, LoadedEnvironment, Prefilter, Quadrature, Quality, Source, bake,
+    direction_from_face, sky, studio,
+};
+
+/// Measures the part.
+pub fn rows(effort: Effort) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for (name, environment) in [("studio", studio()), ("sky", sky())] {
+        let Source::Equirect(map) = &environment.source else { continue };
+        let truth = Quadrature::new(map);
+        rows.extend(levels(effort, name, &environment, &truth));
+        rows.extend(seen(effort, name, &environment, &truth));
+        rows.extend(diffuse(effort, name, &environment, &truth));
+    }
+    rows
+}
+
+/// Relative error of a colour, each channel against at least a thousandth of the mean radiance.
+fn add(errors: &mut Errors, value: [f32; 3], truth: [f64; 3], mean: [f64; 3], at: impl Fn() -> String) {
+    for c in 0..3 {
+        errors.add((f64::from(value[c]) - truth[c]) / truth[c].max(1e-3 * mean[c]), &at);
+    }
+}
+
+/// The levels at random texel centres, by filter, quality and size; cost is a texel of all levels, with irradiance and
+/// harmonics.
+fn levels(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Quadrature) -> Vec<Row> {
+    let domain =
+        format!("{name}: levels of roughness >= 0.2 at texel centres; relative error against a sum over texels");
+    let cases: Vec<(String, BakeOptions)> = [
+        ("ggx preview", Quality::Preview, 256, Prefilter::Ggx),
+        ("ggx", Quality::Default, 128, Prefilter::Ggx),
+        ("ggx", Quality::Default, 256, Prefilter::Ggx),
+        ("ggx best", Quality::Best, 256, Prefilter::Ggx),
+        ("hdre", Quality::Default, 256, Prefilter::Hdre),
+    ]
+    .into_iter()
+    .map(|(method, quality, size, prefilter)| {
+        let level_map = if prefilter == Prefilter::Hdre { LevelMap::Report } else { LevelMap::Geometric };
+        let options = BakeOptions { size, quality, prefilter, level_map, ..BakeOptions::default() };
+        (format!("{method}, {size} px"), options)
+    })
+    .collect();
+    let mut runs: Vec<_> =
+        cases.iter().map(|(_, options)| || f64::from(bake(environment, options).irradiance_sh[0][0])).collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+    let seconds = interleaved(&mut candidates, effort.pick(1, 5));
+    cases
+        .iter()
+        .zip(seconds)
+        .map(|((method, options), seconds)| {
+            let baked = bake(environment, options);
+            let mut errors = Errors::default();
+            for k in 0..effort.pick(24, 400) {
+                let level = 1 + k % (baked.radiance.len() - 1);
+                let roughness = f64::from(baked.roughness[level]);
+                if roughness < 0.19 {
+                    continue;
+                }
+                let size = baked.radiance[level].size;
+                let dir = texel_centre(size, k);
+                let value = baked.radiance[level].sample(dir);
+                add(&mut errors, value, truth.prefiltered(dir, roughness), truth.mean(), || {
+                    format!("{roughness} {dir:?}")
+                });
+            }
+            let texels: usize = baked.radiance.iter().map(|cube| cube.texels.len()).sum();
+            let mut row = Row::new("prefilter", method, &domain);
+            errors.fill(&mut row);
+            row.cost_batch_ns = Some(seconds * 1e9 / texels as f64);
+            row.bytes = Some(8 * texels as u64);
+            row
+        })
+        .collect()
+}
+
+/// The k-th of evenly spread texel centres of a cube, as a unit direction.
+fn texel_centre(size: usize, k: usize) -> [f64; 3] {
+    let place = |g: f64| {
+        let texel = ((0.5 + g * k as f64).fract() * size as f64).floor();
+        (2.0 * texel + 1.0) / size as f64 - 1.0
+    };
+    unit(direction_from_face(k % 6, place(0.754_877_666), place(0.569_840_291)))
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    v.map(|x| x / length)
+}
+
+/// The k-th direction of an even spread over the sphere.
+fn direction(k: usize) -> [f64; 3] {
+    let (y, phi) = (2.0 * (0.5 + 0.819_172_513 * k as f64).fract() - 1.0, 0.671_043_607 * k as f64);
+    let (sin, cos) = (phi.fract() * std::f64::consts::TAU).sin_cos();
+    let across = (1.0 - y * y).sqrt();
+    [across * cos, y, across * sin]
+}
+
+/// Any direction and roughness from 0.1 to 1, read as a shader reads it: one row per mapping of roughness to levels.
+fn seen(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Quadrature) -> Vec<Row> {
+    let domain = format!(
+        "{name}: as seen at any direction, roughness evenly in 0.1..1, 512 px; relative error against a sum over texels"
+    );
+    let points: Vec<([f64; 3], f64)> = (0..effort.pick(60, 1000))
+        .map(|k| (direction(k), 0.1 + 0.9 * (0.5 + 0.549_700_478 * k as f64).fract()))
+        .collect();
+    let expected: Vec<_> = points.iter().map(|&(dir, roughness)| truth.prefiltered(dir, roughness)).collect();
+    let baked = |level_map| bake(environment, &BakeOptions { level_map, irradiance_size: 1, ..BakeOptions::default() });
+    let (geometric, linear, report) = (baked(LevelMap::Geometric), baked(LevelMap::Linear), baked(LevelMap::Report));
+    let count = |baked: &BakedEnvironment| baked.radiance.len() as f64;
+    type Read<'a> = (&'a str, &'a BakedEnvironment, &'a dyn Fn([f64; 3], f64) -> [f32; 3]);
+    let methods: [Read<'_>; 4] = [
+        ("hermite", &geometric, &|dir, roughness| {
+            let lod = lod_geometric(roughness, count(&geometric));
+            environment_sample_hermite(&geometric.radiance, &geometric.slope, dir, lod)
+        }),
+        ("geometric", &geometric, &|dir, roughness| {
+            environment_sample(&geometric.radiance, dir, lod_geometric(roughness, count(&geometric)))
+        }),
+        ("linear", &linear, &|dir, roughness| {
+            environment_sample(&linear.radiance, dir, lod_linear(roughness, count(&linear)))
+        }),
+        ("report", &report, &|dir, roughness| {
+            environment_sample(&report.radiance, dir, lod_report(roughness, count(&report)))
+        }),
+    ];
+    let mut runs: Vec<_> = methods
+        .iter()
+        .map(|(_, _, read)| || points.iter().map(|&(dir, roughness)| f64::from(read(dir, roughness)[0])).sum::<f64>())
+        .collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+    let seconds = interleaved(&mut candidates, effort.pick(20, 50));
+    methods
+        .iter()
+        .zip(seconds)
+        .map(|((method, baked, read), seconds)| {
+            let mut errors = Errors::default();
+            for (&(dir, roughness), &expected) in points.iter().zip(&expected) {
+                let at = || format!("roughness {roughness:.3}, {dir:.3?}");
+                add(&mut errors, read(dir, roughness), expected, truth.mean(), at);
+            }
+            let mut row = Row::new("level_map", method, &domain);
+            errors.fill(&mut row);
+            row.cost_ns = Some(seconds * 1e9 / points.len() as f64);
+            row.bytes = Some(8 * baked.radiance.iter().map(|cube| cube.texels.len() as u64).sum::<u64>());
+            row
+        })
+        .collect()
+}
+
+/// Diffuse light from any direction: the cube, nine coefficients as they are and windowed, and the report's last level.
+///
+/// A third order adds nothing: the cosine lobe has no third degree.
+fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Quadrature) -> Vec<Row> {
+    let domain = format!("{name}: irradiance over pi at any direction; relative error against a sum over texels");
+    let points: Vec<[f64; 3]> = (0..effort.pick(60, 1000)).map(direction).collect();
+    let expected: Vec<_> = points.iter().map(|&dir| truth.prefiltered(dir, 1.0)).collect();
+    let baked = bake(environment, &BakeOptions { size: 64, ..BakeOptions::default() });
+    let report = bake(environment, &BakeOptions { level_map: LevelMap::Report, ..BakeOptions::default() });
+    let harmonics = |coefficients: [[f32; 4]; 9], dir: [f64; 3]| irradiance_sh2(coefficients, dir.map(|x| x as f32));
+    let (plain, windowed) = (baked.irradiance_sh_padded(), windowed(baked.irradiance_sh_padded()));
+    type Read<'a> = (&'a str, u64, &'a dyn Fn([f64; 3]) -> [f32; 3]);
+    let methods: [Read<'_>; 4] = [
+        ("cube", 8 * baked.irradiance_over_pi.texels.len() as u64, &|dir| baked.irradiance_over_pi.sample(dir)),
+        ("sh2", 144, &|dir| harmonics(plain, dir)),
+        ("sh2 windowed", 144, &|dir| harmonics(windowed, dir)),
+        ("last_level", 8 * report.radiance[5].texels.len() as u64, &|dir| report.radiance[5].sample(dir)),
+    ];
+    let mut runs: Vec<_> =
+        methods.iter().map(|(_, _, read)| || points.iter().map(|&dir| f64::from(read(dir)[0])).sum::<f64>()).collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+    let seconds = interleaved(&mut candidates, effort.pick(20, 50));
+    methods
+        .iter()
+        .zip(seconds)
+        .map(|((method, bytes, read), seconds)| {
+            let mut errors = Errors::default();
+            for (&dir, &expected) in points.iter().zip(&expected) {
+                add(&mut errors, read(dir), expected, truth.mean(), || format!("{dir:.3?}"));
+            }
+            let mut row = Row::new("irradiance", method, &domain);
+            errors.fill(&mut row);
+            row.cost_ns = Some(seconds * 1e9 / points.len() as f64);
+            row.bytes = Some(*bytes);
+            row
+        })
+        .collect()
+}
+
+/// Hann's window over degrees 0, 1, 2: (1 + cos(pi l / 3)) / 2 (Sloan 2008, "Stupid Spherical Harmonics (SH) Tricks").
+fn windowed(mut coefficients: [[f32; 4]; 9]) -> [[f32; 4]; 9] {
+    for (k, coefficient) in coefficients.iter_mut().enumerate() {
+        let factor = [1.0, 0.75, 0.25][(k > 0) as usize + (k > 3) as usize];
+        coefficient.iter_mut().for_each(|x| *x *= factor);
+    }
+    coefficients
+}
