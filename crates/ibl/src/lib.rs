@@ -26,8 +26,8 @@ pub mod occlusion;
 mod quadrature;
 mod repair;
 mod resample;
-pub mod save;
 mod sampling;
+pub mod save;
 
 pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, Prefilter, Quality, bake, bake_with_progress};
 pub use builtin::{sky, studio, white};

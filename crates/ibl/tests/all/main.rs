@@ -8,8 +8,8 @@ mod files;
 mod hard;
 mod occlusion;
 mod peers;
-mod save;
 mod sampling;
+mod save;
 mod seen;
 mod truth;
 
