@@ -17,7 +17,7 @@ const FINE_POINTS: usize = 12;
 /// Points and weights of Gauss and Legendre's rule of `N` points over [-1, 1], by Newton's method from Chebyshev's points.
 /// Press et al. 2007, Numerical Recipes, section 4.6.1.
 pub fn gauss_legendre<const N: usize>() -> [[f64; 2]; N] {
-    std::array::from_fn(|i| {
+    core::array::from_fn(|i| {
         let mut x = Real::sin_cos(PI * (i as f64 + 0.75) / (N as f64 + 0.5)).1;
         let mut slope = 1.0;
         for _ in 0..8 {

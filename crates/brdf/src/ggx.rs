@@ -11,9 +11,9 @@ use crate::math::INV_PI;
 pub const PUNCTUAL_ROUGHNESS_FLOOR: f64 = 0.045;
 /// Smallest denominator of D's root. It is reached only for alpha < 1e-9 (perceptual roughness 3e-5), keeps D <= 3.2e35
 /// for any cosines, and makes the 0 / 0 of alpha = 0 a 0.
-const D_FLOOR: f64 = 1e-18;
+pub(crate) const D_FLOOR: f64 = 1e-18;
 /// Smallest denominator of V: keeps V <= 5e35 at n.l = n.v = 0, where V is infinite and V n.l is 0.
-const V_FLOOR: f64 = 1e-36;
+pub(crate) const V_FLOOR: f64 = 1e-36;
 
 /// alpha = perceptual_roughness^2. Burley 2012, Physically-Based Shading at Disney.
 ///

@@ -3,9 +3,9 @@
 use crate::{Real, vector::dot, vector::scale};
 
 /// pi.
-pub const PI: f64 = std::f64::consts::PI;
+pub const PI: f64 = core::f64::consts::PI;
 /// 1 / pi.
-pub const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
+pub const INV_PI: f64 = core::f64::consts::FRAC_1_PI;
 
 /// Shortest squared length that is still divided by: below it lie the denormal numbers of f32, which a GPU may flush.
 pub(crate) const LENGTH2_FLOOR: f64 = 1e-37;

@@ -7,8 +7,8 @@
 //!
 //! A function over `Real` has no `if` on values, because lanes differ: it computes both sides and calls [`Real::choose`].
 
-use std::fmt::{Debug, Display};
-use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+use core::fmt::{Debug, Display};
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A real number: `f32`, `f64`, or several `f32` side by side.
 pub trait Real:
@@ -56,7 +56,13 @@ pub trait Real:
     fn choose(mask: Self::Mask, a: Self, b: Self) -> Self;
     /// This number to a power.
     fn powf(self, power: Self) -> Self;
+    /// self * factor + term, by one rounding where that is one instruction.
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
     /// Held in `low..=high`; NaN gives `low`.
+    #[inline(always)]
     fn clamp(self, low: Self, high: Self) -> Self {
         self.max(low).min(high)
     }
@@ -68,61 +74,75 @@ pub trait Scalar: Real<Mask = bool> + PartialOrd + Default + Display {
     fn to_f64(self) -> f64;
 }
 
+/// A method of the standard library where there is one, else a function of `libm`.
+#[cfg(feature = "std")]
+macro_rules! elementary {
+    ($x:ident.$method:ident($($arg:ident),*), $function:ident($($all:ident),*)) => {
+        Self::$method($x $(, $arg)*)
+    };
+}
+#[cfg(not(feature = "std"))]
+macro_rules! elementary {
+    ($x:ident.$method:ident($($arg:ident),*), $function:ident($($all:ident),*)) => {
+        libm::$function($($all),*)
+    };
+}
+
 macro_rules! real {
-    ($t:ident) => {
+    ($t:ident, $sqrt:ident, $exp2:ident, $log2:ident, $acos:ident, $sincos:ident, $pow:ident) => {
         impl Real for $t {
             type Mask = bool;
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
-            #[inline]
+            #[inline(always)]
             fn of(x: f64) -> Self {
                 x as $t
             }
-            #[inline]
+            #[inline(always)]
             fn sqrt(self) -> Self {
-                $t::sqrt(self)
+                elementary!(self.sqrt(), $sqrt(self))
             }
-            #[inline]
+            #[inline(always)]
             fn abs(self) -> Self {
                 $t::abs(self)
             }
             #[inline]
             fn exp2(self) -> Self {
-                $t::exp2(self)
+                elementary!(self.exp2(), $exp2(self))
             }
             #[inline]
             fn log2(self) -> Self {
-                $t::log2(self)
+                elementary!(self.log2(), $log2(self))
             }
             #[inline]
             fn acos(self) -> Self {
-                $t::acos(self)
+                elementary!(self.acos(), $acos(self))
             }
             #[inline]
             fn powf(self, power: Self) -> Self {
-                $t::powf(self, power)
-            }
-            #[inline]
-            fn lt(self, other: Self) -> bool {
-                self < other
-            }
-            #[inline]
-            fn le(self, other: Self) -> bool {
-                self <= other
-            }
-            #[inline]
-            fn choose(mask: bool, a: Self, b: Self) -> Self {
-                if mask { a } else { b }
+                elementary!(self.powf(power), $pow(self, power))
             }
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                $t::sin_cos(self)
+                elementary!(self.sin_cos(), $sincos(self))
             }
-            #[inline]
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> bool {
+                self <= other
+            }
+            #[inline(always)]
+            fn choose(mask: bool, a: Self, b: Self) -> Self {
+                if mask { a } else { b }
+            }
+            #[inline(always)]
             fn max(self, other: Self) -> Self {
                 $t::max(self, other)
             }
-            #[inline]
+            #[inline(always)]
             fn min(self, other: Self) -> Self {
                 $t::min(self, other)
             }
@@ -137,5 +157,5 @@ macro_rules! real {
     };
 }
 
-real!(f32);
-real!(f64);
+real!(f32, sqrtf, exp2f, log2f, acosf, sincosf, powf);
+real!(f64, sqrt, exp2, log2, acos, sincos, pow);

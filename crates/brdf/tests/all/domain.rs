@@ -13,7 +13,7 @@ use halfvector_brdf::sampling::{g1_smith_ggx, pdf_solid_angle_ggx_vndf, sample_g
 use proptest::prelude::*;
 
 /// Numbers in [low, 1], as many of each order of magnitude.
-fn up_to_1(low: f32) -> impl Strategy<Value = f32> {
+pub(crate) fn up_to_1(low: f32) -> impl Strategy<Value = f32> {
     prop_oneof![(low.ln()..=0.0_f32).prop_map(move |x| x.exp().clamp(low, 1.0)), Just(low), Just(1.0)]
 }
 
@@ -22,13 +22,13 @@ fn color() -> impl Strategy<Value = [f32; 3]> {
 }
 
 /// Unit vectors, axes and neighbours of axes among them.
-fn unit() -> impl Strategy<Value = [f32; 3]> {
+pub(crate) fn unit() -> impl Strategy<Value = [f32; 3]> {
     let component = prop_oneof![-1.0..=1.0_f32, Just(0.0), Just(1.0), Just(-1.0), -1e-6..1e-6_f32];
     prop::array::uniform3(component).prop_map(|v| normalize_or(v, [0.0, 0.0, 1.0]))
 }
 
 /// Any bits, NaN and infinities often among them.
-fn any_bits() -> impl Strategy<Value = f32> {
+pub(crate) fn any_bits() -> impl Strategy<Value = f32> {
     prop_oneof![
         any::<u32>().prop_map(f32::from_bits),
         prop::sample::select(vec![

@@ -1,6 +1,7 @@
 //! Tests of the BRDF math against published truth, hard cases and its own documented domains, in one binary.
 
 mod any_number;
+mod batch;
 mod chi2;
 mod columns;
 mod data;
@@ -9,6 +10,7 @@ mod energy;
 mod evaluate;
 mod forms;
 mod hard_cases;
+mod lanes;
 mod lobes;
 mod lobes_layered;
 mod points;

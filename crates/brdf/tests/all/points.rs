@@ -171,7 +171,7 @@ fn specular<R: Scalar>(row: Row, view: [R; 3], light: [R; 3]) -> R {
 }
 
 /// What the error of the whole lobe is taken relative to: the lobe with its Fresnel term floored.
-fn lobe_scale(row: Row) -> f64 {
+pub(crate) fn lobe_scale(row: Row) -> f64 {
     row.number("D_ggx") * row.number("V_smith_hc") * row.number("F_schlick").max(0.02) * row.number("nol")
 }
 

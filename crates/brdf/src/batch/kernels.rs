@@ -1,0 +1,176 @@
+//! The common lobes over slices. Local frame: the normal is +Z, `view` and `light` are unit.
+//!
+//! The specular lobe is GGX with the height-correlated V and Schlick's Fresnel with f90 = 1: the metal-rough model's.
+//! It is written for the local frame and with the half vector's length cancelled, which saves a division and a square
+//! root of the scalar functions' six; the values agree with them within their errors.
+
+use super::{Kernel, LengthMismatch, Simd};
+use crate::Real;
+use crate::frame::N_DOT_V_FLOOR;
+use crate::ggx::{D_FLOOR, V_FLOOR};
+use crate::math::{INV_PI, LENGTH2_FLOOR, finite_or_zero, pow5};
+use crate::sampling::sample_ggx_vndf;
+use crate::vector::dot;
+
+/// sqrt(alpha^2 + (1 - alpha^2) c^2): of GGX's masking.
+#[inline(always)]
+fn masking_root<R: Real>(cosine: R, a2: R) -> R {
+    ((R::ONE - a2) * cosine).mul_add(cosine, a2).sqrt()
+}
+
+#[inline(always)]
+fn f_schlick_metal<R: Real>(f0: R, weight: R) -> R {
+    (R::ONE - f0).mul_add(weight, f0)
+}
+
+/// sqrt of D for the half vector along `sum`, of any length, without normalising it: D = k^2 / pi,
+/// k = alpha |s|^2 / (alpha^2 s.z^2 + s.x^2 + s.y^2).
+#[inline(always)]
+fn d_ggx_root<R: Real>(sum: [R; 3], length2: R, alpha: R) -> R {
+    let a = sum[2] * alpha;
+    let denominator = a.mul_add(a, sum[1].mul_add(sum[1], sum[0] * sum[0]));
+    // The floor of D of the scalar function, times |s|^2, which the unit half vector's denominator has lost; the second
+    // number makes the 0 / 0 of v + l = 0 a 0.
+    let floor = length2.mul_add(R::of(D_FLOOR), R::of(LENGTH2_FLOOR));
+    alpha * length2 / denominator.max(floor)
+}
+
+/// D V F n.l of directions to the viewer and to the light.
+/// Inputs: view x y z, light x y z, alpha, f0 r g b. Outputs: r g b.
+pub struct SpecularEval;
+
+impl Kernel<10, 3> for SpecularEval {
+    #[inline(always)]
+    fn call<R: Real>(&self, [vx, vy, vz, lx, ly, lz, alpha, r, g, b]: [R; 10]) -> [R; 3] {
+        let n_dot_v = vz.clamp(R::of(N_DOT_V_FLOOR), R::ONE);
+        let n_dot_l = lz.clamp(R::ZERO, R::ONE);
+        let sum = [vx + lx, vy + ly, vz + lz];
+        let length2 = dot(sum, sum);
+        let a2 = alpha * alpha;
+        let k = d_ggx_root(sum, length2, alpha);
+        let masking = n_dot_l.mul_add(masking_root(n_dot_v, a2), n_dot_v * masking_root(n_dot_l, a2));
+        let v_n_dot_l = R::of(0.5 * INV_PI) * n_dot_l / masking.max(R::of(V_FLOOR));
+        let weight = pow5((length2.sqrt().mul_add(R::of(-0.5), R::ONE)).clamp(R::ZERO, R::ONE));
+        let scale = k * (k * v_n_dot_l);
+        finite_or_zero([r, g, b].map(|f0| f_schlick_metal(f0, weight) * scale))
+    }
+}
+
+/// Density of light directions drawn by [`SpecularSample`]: G1(v) D(h) / (4 n.v).
+/// Inputs: view x y z, light x y z, alpha. Outputs: density in 1/sr.
+pub struct SpecularPdf;
+
+impl Kernel<7, 1> for SpecularPdf {
+    #[inline(always)]
+    fn call<R: Real>(&self, [vx, vy, vz, lx, ly, lz, alpha]: [R; 7]) -> [R; 1] {
+        let n_dot_v = vz.clamp(R::of(N_DOT_V_FLOOR), R::ONE);
+        let sum = [vx + lx, vy + ly, vz + lz];
+        let k = d_ggx_root(sum, dot(sum, sum), alpha);
+        [k * k * R::of(0.5 * INV_PI) / (n_dot_v + masking_root(n_dot_v, alpha * alpha))]
+    }
+}
+
+/// A light direction for a view: the mirror image about a visible GGX normal ([`sample_ggx_vndf`]).
+/// Inputs: view x y z, alpha, f0 r g b, two numbers in [0, 1).
+/// Outputs: light x y z, density in 1/sr, weight r g b = (D V F n.l) / density, 0 below the horizon.
+pub struct SpecularSample;
+
+impl Kernel<9, 7> for SpecularSample {
+    #[inline(always)]
+    fn call<R: Real>(&self, [vx, vy, vz, alpha, r, g, b, u0, u1]: [R; 9]) -> [R; 7] {
+        let view = [vx, vy, vz];
+        let n_dot_v = vz.clamp(R::of(N_DOT_V_FLOOR), R::ONE);
+        let h = sample_ggx_vndf([vx, vy, n_dot_v], alpha, [u0, u1]);
+        let v_dot_h = dot(view, h);
+        let twice = v_dot_h + v_dot_h;
+        let light = [0, 1, 2].map(|i| twice.mul_add(h[i], -view[i]));
+        let n_dot_l = light[2].clamp(R::ZERO, R::ONE);
+        let a2 = alpha * alpha;
+        let view_root = masking_root(n_dot_v, a2);
+        let k = d_ggx_root(h, R::ONE, alpha);
+        let pdf = k * k * R::of(0.5 * INV_PI) / (n_dot_v + view_root);
+        // G2 / G1(v) = n.l (n.v + root(v)) / (n.l root(v) + n.v root(l)).
+        let masking = n_dot_l.mul_add(view_root, n_dot_v * masking_root(n_dot_l, a2)).max(R::of(V_FLOOR));
+        let ratio = n_dot_l * (n_dot_v + view_root) / masking;
+        let weight = pow5((R::ONE - v_dot_h).clamp(R::ZERO, R::ONE));
+        let [r, g, b] = [r, g, b].map(|f0| f_schlick_metal(f0, weight) * ratio);
+        [light[0], light[1], light[2], pdf, r, g, b]
+    }
+}
+
+/// Slices of unit directions: x, y and z.
+pub type Directions<'a> = [&'a [f32]; 3];
+
+impl Simd {
+    /// [`SpecularEval`] over slices: BRDF times n.l in 1/sr, r g b, into `out`; 0 where the light is behind the surface.
+    ///
+    /// Domain: alpha in [1e-8, 1], f0 in [0, 1]. Any input gives a finite result: a channel that would be NaN or infinite
+    /// is 0. n.v is held above 1e-7. Where the light is opposite to the viewer, the lobe is 0.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] unless all slices have one length.
+    pub fn specular_eval(
+        self,
+        view: Directions,
+        light: Directions,
+        alpha: &[f32],
+        f0: [&[f32]; 3],
+        out: [&mut [f32]; 3],
+    ) -> Result<(), LengthMismatch> {
+        let [vx, vy, vz] = view;
+        let [lx, ly, lz] = light;
+        let [r, g, b] = f0;
+        self.run(&SpecularEval, [vx, vy, vz, lx, ly, lz, alpha, r, g, b], out)
+    }
+
+    /// [`SpecularPdf`] over slices: the density in 1/sr with which [`Simd::specular_sample`] draws `light`.
+    ///
+    /// Domain: alpha in [1e-8, 1]. NaN in gives NaN out. n.v is held above 1e-7.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] unless all slices have one length.
+    pub fn specular_pdf(
+        self,
+        view: Directions,
+        light: Directions,
+        alpha: &[f32],
+        pdf_solid_angle: &mut [f32],
+    ) -> Result<(), LengthMismatch> {
+        let [vx, vy, vz] = view;
+        let [lx, ly, lz] = light;
+        self.run(&SpecularPdf, [vx, vy, vz, lx, ly, lz, alpha], [pdf_solid_angle])
+    }
+
+    /// [`SpecularSample`] over slices: directions to light, their density in 1/sr, and the weight BRDF n.l / density.
+    ///
+    /// Domain: alpha in [1e-8, 1], f0 in [0, 1], `u` in [0, 1). n.v is held above 1e-7. A direction below the horizon has
+    /// weight 0 and a density. NaN in gives NaN in the same element.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] unless all slices have one length; outputs are counted light x y z, density, weight r g b.
+    pub fn specular_sample(
+        self,
+        view: Directions,
+        alpha: &[f32],
+        f0: [&[f32]; 3],
+        u: [&[f32]; 2],
+        out: SampleSlices,
+    ) -> Result<(), LengthMismatch> {
+        let [vx, vy, vz] = view;
+        let [r, g, b] = f0;
+        let [lx, ly, lz] = out.light;
+        let [wr, wg, wb] = out.weight;
+        let inputs = [vx, vy, vz, alpha, r, g, b, u[0], u[1]];
+        self.run(&SpecularSample, inputs, [lx, ly, lz, out.pdf_solid_angle, wr, wg, wb])
+    }
+}
+
+/// Where [`Simd::specular_sample`] writes.
+pub struct SampleSlices<'a> {
+    /// Unit directions to the light: x, y, z.
+    pub light: [&'a mut [f32]; 3],
+    /// Their density in 1/sr.
+    pub pdf_solid_angle: &'a mut [f32],
+    /// BRDF times n.l over the density: r, g, b.
+    pub weight: [&'a mut [f32]; 3],
+}
