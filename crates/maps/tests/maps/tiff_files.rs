@@ -143,12 +143,13 @@ fn other_types_are_refused() {
     assert!(error.contains("TIFF image: the colour type CMYK"), "{error}");
 }
 
+/// Where the fields of a file are written.
+type Tags<'a, 'b> = tiff::encoder::DirectoryEncoder<'a, &'b mut Cursor<Vec<u8>>, tiff::encoder::TiffKindStandard>;
+
 /// An ICC profile, and primaries without one; a transfer table is refused.
 #[test]
 fn profiles_are_heard() {
-    let with = |write: &dyn Fn(
-        &mut tiff::encoder::DirectoryEncoder<'_, &mut Cursor<Vec<u8>>, tiff::encoder::TiffKindStandard>,
-    )| {
+    let with = |write: &dyn Fn(&mut Tags<'_, '_>)| {
         let mut bytes = Cursor::new(Vec::new());
         let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
         let mut image = encoder.new_image::<colortype::RGB8>(1, 1).unwrap();
