@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 
-use crate::coding::{Srgb8, code_u8, code_u16, srgb8};
+use crate::coding::{code_u8, code_u16, srgb8};
 use crate::color::{linear_from_srgb, srgb_from_linear};
 use crate::image::{Image, Texels};
 use crate::real::normalize_or;
@@ -47,20 +47,42 @@ pub fn smaller_levels(image: &Image, color_space: ColorSpace, kind: MapKind) -> 
     if width == 1 && height == 1 {
         return Vec::new();
     }
-    let coding = Coding { color_space, kind, srgb8: srgb8() };
     let weighted = kind == MapKind::Color && image.channels().has_alpha();
-    let levels = match image.texels() {
-        Texels::U8(texels) => {
-            let read = |i: usize| coding.read_u8(texels[i]);
-            all_levels(width, height, weighted, read, |t| coding.store_u8(t), Texels::U8)
+    let size = (width, height, weighted);
+    // One loop for each coding, so that no texel asks which it is. Normals have no colour space: 2 c - 1 is of the codes.
+    let levels = match (image.texels(), kind, color_space) {
+        (Texels::U8(texels), MapKind::Normal, _) => {
+            all_levels(size, texels, |t| vector(unit_u8(t)), |v| normal_codes(v).map(code_u8), Texels::U8)
         }
-        Texels::U16(texels) => {
-            let read = |i: usize| coding.read_u16(texels[i]);
-            all_levels(width, height, weighted, read, |t| coding.encoded(t).map(code_u16), Texels::U16)
+        (Texels::U8(texels), _, ColorSpace::Srgb) => {
+            let table = srgb8();
+            let read = |[r, g, b, a]: [u8; 4]| {
+                let [r, g, b] = [r, g, b].map(|c| table.linear[usize::from(c)]);
+                [r, g, b, f32::from(a) * (1.0 / 255.0)]
+            };
+            let store = |[r, g, b, a]: [f32; 4]| [table.code(r), table.code(g), table.code(b), code_u8(a)];
+            all_levels(size, texels, read, store, Texels::U8)
         }
-        Texels::F32(texels) => {
-            let read = |i: usize| coding.read_f32(texels[i]);
-            all_levels(width, height, weighted, read, |t| coding.encoded(t), Texels::F32)
+        (Texels::U8(texels), _, ColorSpace::Linear) => {
+            all_levels(size, texels, unit_u8, |v| v.map(code_u8), Texels::U8)
+        }
+        (Texels::U16(texels), MapKind::Normal, _) => {
+            all_levels(size, texels, |t| vector(unit_u16(t)), |v| normal_codes(v).map(code_u16), Texels::U16)
+        }
+        (Texels::U16(texels), _, ColorSpace::Srgb) => {
+            all_levels(size, texels, |t| linear(unit_u16(t)), |v| encoded(v).map(code_u16), Texels::U16)
+        }
+        (Texels::U16(texels), _, ColorSpace::Linear) => {
+            all_levels(size, texels, unit_u16, |v| v.map(code_u16), Texels::U16)
+        }
+        (Texels::F32(texels), MapKind::Normal, _) => {
+            all_levels(size, texels, |t| vector(without_nan(t, kind)), normal_codes, Texels::F32)
+        }
+        (Texels::F32(texels), _, ColorSpace::Srgb) => {
+            all_levels(size, texels, |t| linear(without_nan(t, kind)), encoded, Texels::F32)
+        }
+        (Texels::F32(texels), _, ColorSpace::Linear) => {
+            all_levels(size, texels, |t| without_nan(t, kind), |v| v, Texels::F32)
         }
     };
     levels
@@ -69,20 +91,59 @@ pub fn smaller_levels(image: &Image, color_space: ColorSpace, kind: MapKind) -> 
         .collect()
 }
 
-/// Width, height and stored texels of all levels below one that `read` gives.
+#[inline]
+fn unit_u8(texel: [u8; 4]) -> [f32; 4] {
+    texel.map(|c| f32::from(c) * (1.0 / 255.0))
+}
+
+#[inline]
+fn unit_u16(texel: [u16; 4]) -> [f32; 4] {
+    texel.map(|c| f32::from(c) * (1.0 / 65_535.0))
+}
+
+/// NaN is 0; the alpha of a colour is a weight and must be one.
+#[inline]
+fn without_nan(texel: [f32; 4], kind: MapKind) -> [f32; 4] {
+    let [r, g, b, a] = texel.map(|c| if c.is_nan() { 0.0 } else { c });
+    [r, g, b, if kind == MapKind::Color { a.clamp(0.0, 1.0) } else { a }]
+}
+
+fn linear([r, g, b, a]: [f32; 4]) -> [f32; 4] {
+    let [r, g, b] = linear_from_srgb([r, g, b]);
+    [r, g, b, a]
+}
+
+fn encoded([r, g, b, a]: [f32; 4]) -> [f32; 4] {
+    let [r, g, b] = srgb_from_linear([r, g, b]);
+    [r, g, b, a]
+}
+
+#[inline]
+fn vector([r, g, b, a]: [f32; 4]) -> [f32; 4] {
+    let [x, y, z] = crate::normal::normal_from_texel([r, g, b], 1.0, false);
+    [x, y, z, a]
+}
+
+/// (n + 1) / 2 of the vector made unit.
+#[inline]
+fn normal_codes([x, y, z, a]: [f32; 4]) -> [f32; 4] {
+    let [r, g, b] = normalize_or([x, y, z], [0.0, 0.0, 1.0]).map(|x| 0.5 * x + 0.5);
+    [r, g, b, a]
+}
+
+/// Width, height and stored texels of all levels below `first`; `read` brings a texel to what is averaged, `store` back.
 fn all_levels<T: Copy + Default + Send + Sync>(
-    width: usize,
-    height: usize,
-    weighted: bool,
-    read: impl Fn(usize) -> [f32; 4] + Sync,
+    (width, height, weighted): (usize, usize, bool),
+    first: &[[T; 4]],
+    read: impl Fn([T; 4]) -> [f32; 4] + Sync,
     store: impl Fn([f32; 4]) -> [T; 4] + Sync,
     texels: impl Fn(Vec<[T; 4]>) -> Texels,
 ) -> Vec<(usize, usize, Texels)> {
-    let (mut levels, mut level) = even_levels(width, height, weighted, &read, &store);
+    let (mut levels, mut level) = even_levels((width, height, weighted), first, &read, &store);
     while level.as_ref().is_none_or(|level| level.width > 1 || level.height > 1) {
         let next = match &level {
             Some(level) => halved(level.width, level.height, weighted, |i| level.texels[i]),
-            None => halved(width, height, weighted, &read),
+            None => halved(width, height, weighted, |i| read(first[i])),
         };
         let texels = next.texels.par_iter().with_min_len(1 << 12).map(|&texel| store(texel)).collect();
         levels.push(Stored { width: next.width, height: next.height, texels });
@@ -105,10 +166,9 @@ const FUSED: u32 = 5;
 /// there they become one of the next, while they are in the cache. Also the last of them as it is before it is rounded;
 /// none where the first level has an odd side.
 fn even_levels<T: Copy + Default + Send + Sync>(
-    width: usize,
-    height: usize,
-    weighted: bool,
-    read: &(impl Fn(usize) -> [f32; 4] + Sync),
+    (width, height, weighted): (usize, usize, bool),
+    first: &[[T; 4]],
+    read: &(impl Fn([T; 4]) -> [f32; 4] + Sync),
     store: &(impl Fn([f32; 4]) -> [T; 4] + Sync),
 ) -> (Vec<Stored<T>>, Option<Level>) {
     let count = width.trailing_zeros().min(height.trailing_zeros()).min(FUSED);
@@ -131,8 +191,8 @@ fn even_levels<T: Copy + Default + Send + Sync>(
         let mut rows: Vec<[Vec<[f32; 4]>; 2]> =
             (1..=count).map(|level| [(); 2].map(|()| vec![[0.0; 4]; size(level).0])).collect();
         for y in 0..1_usize << (count - 1) {
-            let first = ((band << (count - 1)) + y) * 2 * width;
-            halve_rows(&mut rows[0][y % 2], weighted, |x| [first + x, first + width + x].map(read));
+            let (top, bottom) = first[((band << (count - 1)) + y) * 2 * width..][..2 * width].split_at(width);
+            halve_rows(&mut rows[0][y % 2], weighted, top, bottom, read);
             let (mut level, mut row) = (0, y);
             loop {
                 let done = &rows[level][row % 2];
@@ -143,7 +203,7 @@ fn even_levels<T: Copy + Default + Send + Sync>(
                 }
                 let (above, below) = rows.split_at_mut(level + 1);
                 let [a, b] = &above[level];
-                halve_rows(&mut below[0][row / 2 % 2], weighted, |x| [a[x], b[x]]);
+                halve_rows(&mut below[0][row / 2 % 2], weighted, a, b, &|texel| texel);
                 (level, row) = (level + 1, row / 2);
             }
         }
@@ -156,19 +216,18 @@ fn even_levels<T: Copy + Default + Send + Sync>(
     (stored.collect(), Some(last))
 }
 
-/// One row from two of twice its length; `pair` gives the upper and the lower texel of a column.
-fn halve_rows(row: &mut [[f32; 4]], weighted: bool, pair: impl Fn(usize) -> [[f32; 4]; 2]) {
-    let quad = |x: usize| {
-        let ([a, c], [b, d]) = (pair(2 * x), pair(2 * x + 1));
-        [a, b, c, d]
-    };
+/// One row from two of twice its length.
+#[inline]
+fn halve_rows<S: Copy>(row: &mut [[f32; 4]], weighted: bool, top: &[S], bottom: &[S], read: &impl Fn(S) -> [f32; 4]) {
+    let quads = top.chunks_exact(2).zip(bottom.chunks_exact(2));
+    let quads = quads.map(|(top, bottom)| [read(top[0]), read(top[1]), read(bottom[0]), read(bottom[1])]);
     if weighted {
-        row.iter_mut().enumerate().for_each(|(x, out)| *out = Mean::of(quad(x)).by_alpha());
+        row.iter_mut().zip(quads).for_each(|(out, quad)| *out = Mean::of(quad).by_alpha());
     } else {
         let mean = |[a, b, c, d]: [[f32; 4]; 4]| {
             std::array::from_fn(|k| (0.25 * a[k] + 0.25 * b[k]) + (0.25 * c[k] + 0.25 * d[k]))
         };
-        row.iter_mut().enumerate().for_each(|(x, out)| *out = mean(quad(x)));
+        row.iter_mut().zip(quads).for_each(|(out, quad)| *out = mean(quad));
     }
 }
 
@@ -208,10 +267,12 @@ struct Mean {
 
 impl Mean {
     /// Of four alike.
-    fn of(texels: [[f32; 4]; 4]) -> Self {
-        let mut mean = Self::default();
-        texels.into_iter().for_each(|texel| mean.add(0.25, texel));
-        mean
+    #[inline]
+    fn of([a, b, c, d]: [[f32; 4]; 4]) -> Self {
+        let weights = [a[3], b[3], c[3], d[3]].map(|alpha| 0.25 * alpha);
+        let sum = |k: usize| (0.25 * a[k] + 0.25 * b[k]) + (0.25 * c[k] + 0.25 * d[k]);
+        let visible = |k: usize| (weights[0] * a[k] + weights[1] * b[k]) + (weights[2] * c[k] + weights[3] * d[k]);
+        Self { sum: [sum(0), sum(1), sum(2), sum(3)], visible: [visible(0), visible(1), visible(2)] }
     }
 
     fn add(&mut self, weight: f32, texel: [f32; 4]) {
@@ -224,6 +285,7 @@ impl Mean {
     }
 
     /// The colour weighted by alpha, or the plain one where there is no alpha; and the mean alpha.
+    #[inline]
     fn by_alpha(self) -> [f32; 4] {
         let [.., alpha] = self.sum;
         if alpha > 0.0 {
@@ -260,89 +322,5 @@ pub(crate) fn footprint(n: usize, i: usize) -> Footprint {
     } else {
         let part = |p: usize| p as f32 / n as f32;
         Footprint { first: 2 * i, count: 3, weights: [part(m - i), part(m), part(i + 1)] }
-    }
-}
-
-/// Between stored texels and what is averaged.
-#[derive(Clone, Copy)]
-struct Coding {
-    color_space: ColorSpace,
-    kind: MapKind,
-    srgb8: &'static Srgb8,
-}
-
-impl Coding {
-    fn read_u8(self, texel: [u8; 4]) -> [f32; 4] {
-        if self.is_srgb() {
-            let [r, g, b, a] = texel;
-            let linear = |c: u8| self.srgb8.linear[usize::from(c)];
-            [linear(r), linear(g), linear(b), f32::from(a) / 255.0]
-        } else {
-            self.vector(texel.map(|c| f32::from(c) / 255.0))
-        }
-    }
-
-    fn read_u16(self, texel: [u16; 4]) -> [f32; 4] {
-        self.read_unit(texel.map(|c| f32::from(c) / 65535.0))
-    }
-
-    fn read_f32(self, texel: [f32; 4]) -> [f32; 4] {
-        let mut texel = texel.map(|c| if c.is_nan() { 0.0 } else { c });
-        if self.kind == MapKind::Color {
-            texel[3] = texel[3].clamp(0.0, 1.0);
-        }
-        self.read_unit(texel)
-    }
-
-    fn read_unit(self, [r, g, b, a]: [f32; 4]) -> [f32; 4] {
-        if self.is_srgb() {
-            let [r, g, b] = linear_from_srgb([r, g, b]);
-            [r, g, b, a]
-        } else {
-            self.vector([r, g, b, a])
-        }
-    }
-
-    fn vector(self, [r, g, b, a]: [f32; 4]) -> [f32; 4] {
-        if self.kind == MapKind::Normal {
-            let [x, y, z] = crate::normal::normal_from_texel([r, g, b], 1.0, false);
-            [x, y, z, a]
-        } else {
-            [r, g, b, a]
-        }
-    }
-
-    /// Normals have no colour space: 2 c - 1 is of the codes themselves.
-    fn is_srgb(self) -> bool {
-        self.color_space == ColorSpace::Srgb && self.kind != MapKind::Normal
-    }
-
-    /// Back to the range 0..1 of codes, for normals (n + 1) / 2; linear still.
-    fn codes(self, [r, g, b, a]: [f32; 4]) -> [f32; 4] {
-        if self.kind == MapKind::Normal {
-            let [x, y, z] = normalize_or([r, g, b], [0.0, 0.0, 1.0]).map(|x| 0.5 * x + 0.5);
-            [x, y, z, a]
-        } else {
-            [r, g, b, a]
-        }
-    }
-
-    fn store_u8(self, texel: [f32; 4]) -> [u8; 4] {
-        let [r, g, b, a] = self.codes(texel);
-        if self.is_srgb() {
-            [self.srgb8.code(r), self.srgb8.code(g), self.srgb8.code(b), code_u8(a)]
-        } else {
-            [r, g, b, a].map(code_u8)
-        }
-    }
-
-    fn encoded(self, texel: [f32; 4]) -> [f32; 4] {
-        let [r, g, b, a] = self.codes(texel);
-        if self.is_srgb() {
-            let [r, g, b] = srgb_from_linear([r, g, b]);
-            [r, g, b, a]
-        } else {
-            [r, g, b, a]
-        }
     }
 }
