@@ -2,12 +2,17 @@
 
 use halfvector_maps::{ColorSpace, Limits, MapKind, Texels, decode, smaller_levels};
 use libfuzzer_sys::Corpus;
+use std::sync::Once;
 
 /// Small, so that a run is quick.
 const LIMITS: Limits = Limits { max_width: 2048, max_height: 2048, max_texels: 1 << 20, max_bytes: 1 << 25 };
 
 /// Decodes, reads as colour and as data, and makes the levels of what is small.
 pub fn check(data: &[u8]) -> Corpus {
+    // libFuzzer's hook ends the process at every panic, also at those of other people's decoders that `decode` turns into
+    // an error. Without it a panic that leaves this function still ends the run.
+    static CATCHABLE: Once = Once::new();
+    CATCHABLE.call_once(|| drop(std::panic::take_hook()));
     let Ok(decoded) = decode(data, LIMITS) else { return Corpus::Keep };
     let image = decoded.clone().into_data().image;
     let texels = u64::from(image.width()) * u64::from(image.height());

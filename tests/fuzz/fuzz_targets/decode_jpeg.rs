@@ -6,5 +6,5 @@ mod decode;
 use libfuzzer_sys::{Corpus, fuzz_target};
 
 fuzz_target!(|data: &[u8]| -> Corpus {
-    if data.starts_with(b"ÿØÿ") { decode::check(data) } else { Corpus::Reject }
+    if data.starts_with(b"\xff\xd8\xff") { decode::check(data) } else { Corpus::Reject }
 });

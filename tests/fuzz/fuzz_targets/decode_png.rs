@@ -6,7 +6,5 @@ mod decode;
 use libfuzzer_sys::{Corpus, fuzz_target};
 
 fuzz_target!(|data: &[u8]| -> Corpus {
-    if data.starts_with(b"‰PNG
-
-") { decode::check(data) } else { Corpus::Reject }
+    if data.starts_with(b"\x89PNG\r\n\x1a\n") { decode::check(data) } else { Corpus::Reject }
 });
