@@ -113,8 +113,8 @@ fn joined(first: u32) -> Node {
         centre += luminance * child.centre;
     }
     // A node without light is never read; one whose light is all around has no centre and is always opened.
-    let distance = length(centre);
-    centre = select(nodes[first].centre, centre / distance, distance > 0.0);
+    let arm = length(centre);
+    centre = select(nodes[first].centre, centre / arm, arm > 0.0);
     var spread = 0.0;
     for (var i = 0u; i < 4u; i += 1u) {
         let child = nodes[first + i];

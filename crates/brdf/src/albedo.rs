@@ -51,7 +51,7 @@ pub fn directional_albedo_ggx_with<const POINTS: usize>(
     visibility: fn(f64, f64, f64, f64) -> f64,
     rule: &[[f64; 2]; POINTS],
 ) -> [f64; 2] {
-    let n_dot_v = f64::min(f64::max(n_dot_v, MIN_COSINE), 1.0);
+    let n_dot_v = Real::clamp(n_dot_v, MIN_COSINE, 1.0);
     let alpha = f64::max(alpha_from_perceptual_roughness(perceptual_roughness), MIN_ALPHA);
     let theta_v = Real::acos(n_dot_v);
     let sin_v = Real::sin_cos(theta_v).0;

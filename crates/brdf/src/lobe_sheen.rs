@@ -36,8 +36,7 @@ pub fn sheen_albedo<R: Real>(n_dot_w: R, perceptual_roughness: R) -> R {
     let mu = n_dot_w.clamp(R::of(1e-7), R::ONE);
     let at_grazing = (R::of(0.3848) + r * (R::of(0.0543) + r * R::of(0.1748))) * inv_r;
     let falloff = R::of(1.0701) + R::of(1.0386) * inv_r - R::of(0.7959) * r;
-    // log2(e) = 1.442695
-    at_grazing * (R::of(-1.442695) * falloff * (R::of(0.89) * mu.log2()).exp2()).exp2()
+    at_grazing * (-R::of(core::f64::consts::LOG2_E) * falloff * (R::of(0.89) * mu.log2()).exp2()).exp2()
 }
 
 /// BRDF times n.l for the unit direction `l` to a light, color D V n.l / max(1, 1.03 E(v), 1.03 E(l)) in 1/sr; 0 where the

@@ -32,8 +32,9 @@ fn check_by_name(name: &str) {
         let (function, arguments, answer) = (case.function, &case.arguments, case.answer);
         assert!(
             (value - answer).abs() <= tolerance * answer.abs(),
-            "{}: {number} {function} of {arguments:?}: {value}, the right answer is {answer}",
-            gpu.name
+            "{}: {number} {function} of {arguments:?}: {value}, the right answer is {answer} (row {:?})",
+            gpu.name,
+            case.row
         );
     };
     // A GPU's division and square root have an ulp or two that Rust's have not.

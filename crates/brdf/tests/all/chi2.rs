@@ -11,7 +11,6 @@ use halfvector_brdf::lobe_sampling::{
     transmission_thin_sample,
 };
 use halfvector_brdf::lobe_transmission::Transmission;
-use halfvector_brdf::math::PI;
 use halfvector_brdf::sampling::{pdf_solid_angle_ggx_vndf, sample_ggx_vndf};
 use halfvector_brdf::sampling_bounded::{
     pdf_half_vector_ggx_vndf_anisotropic, pdf_solid_angle_ggx_bounded, pdf_solid_angle_ggx_vndf_anisotropic, reflected,

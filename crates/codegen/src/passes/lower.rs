@@ -257,11 +257,9 @@ pub(crate) fn lower<'a>(
             fragment.roots.insert(socket, id);
         }
     }
-    if derived_normal {
-        if let Some(height) = lowering.input(&mut fragment.arena, &mut table, types.surface, "height")? {
-            let normal = normal_from_height(&mut fragment.arena, height);
-            lowering.substitute("world_normal", normal);
-        }
+    if derived_normal && let Some(height) = lowering.input(&mut fragment.arena, &mut table, types.surface, "height")? {
+        let normal = normal_from_height(&mut fragment.arena, height);
+        lowering.substitute("world_normal", normal);
     }
     if let Some(id) = lowering.input(&mut fragment.arena, &mut table, types.surface, "normal")? {
         let unit = unit_normal(&mut fragment.arena, types, id);

@@ -170,10 +170,10 @@ impl Reader<'_> {
 
     fn default(&mut self, argument: &ArgumentDoc, ty: SocketType) -> Option<Default> {
         let (line, name) = (argument.line, &argument.name);
-        if let (DefaultDoc::Numbers(numbers), Some([lo, hi])) = (&argument.default, argument.range) {
-            if numbers.iter().any(|x| !(lo..=hi).contains(x)) {
-                self.slip(line, format!("the default of `{name}` lies outside its range"));
-            }
+        if let (DefaultDoc::Numbers(numbers), Some([lo, hi])) = (&argument.default, argument.range)
+            && numbers.iter().any(|x| !(lo..=hi).contains(x))
+        {
+            self.slip(line, format!("the default of `{name}` lies outside its range"));
         }
         if argument.range.is_some() && matches!(ty, SocketType::Texture | SocketType::Value(Type::Bool)) {
             self.slip(line, format!("`{name}` has no range: it is no number"));

@@ -5,6 +5,9 @@ use crate::timing::interleaved;
 use crate::{Effort, Row};
 use halfvector_brdf::fresnel::{f_dielectric, f_exact, f_schlick};
 
+/// A form of the reflectance: f0, f90, l.h.
+type Fresnel = fn([f32; 3], [f32; 3], f32) -> [f32; 3];
+
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
     fresnel(effort)
@@ -16,7 +19,7 @@ fn fresnel(effort: Effort) -> Vec<Row> {
     let points = effort.pick(1 << 10, 1 << 14);
     let cosines: Vec<f32> = (0..points).map(|i| (i as f32 + 0.5) / points as f32).collect();
     let (f0, f90) = ([0.04f32; 3], [1.0f32; 3]);
-    let forms: [(&str, fn([f32; 3], [f32; 3], f32) -> [f32; 3]); 2] = [("schlick", f_schlick), ("exact", f_exact)];
+    let forms: [(&str, Fresnel); 2] = [("schlick", f_schlick), ("exact", f_exact)];
 
     let mut runs: Vec<_> =
         forms.iter().map(|(_, form)| || cosines.iter().map(|&c| f64::from(form(f0, f90, c)[0])).sum::<f64>()).collect();

@@ -35,6 +35,9 @@ const LAYOUTS: &[Layout] = &[
     Layout { name: "64^2 f16, vertex-centred, both warped", size: 64, vertices: true, powers: [4, 2], bytes: 2 },
 ];
 
+/// An analytic fit: scale and bias by n.v and perceptual roughness.
+type Fit = fn(f32, f32) -> [f32; 2];
+
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
     let points = truth(effort.pick(24, 64));
@@ -50,7 +53,7 @@ pub fn rows(effort: Effort) -> Vec<Row> {
             },
         ));
     }
-    let forms: [(&str, fn(f32, f32) -> [f32; 2]); 2] = [("fit", dfg_fit), ("karis", dfg_karis)];
+    let forms: [(&str, Fit); 2] = [("fit", dfg_fit), ("karis", dfg_karis)];
     let arguments: Vec<[f32; 2]> = points.iter().map(|p| [p.0 as f32, p.1 as f32]).collect();
     let mut runs: Vec<_> = forms
         .iter()

@@ -9,11 +9,14 @@ use halfvector_maps::lost_length::{Rule, Spread, lobe_error};
 /// Texels along the side of a footprint: three levels.
 const SIDE: usize = 8;
 
+/// A rule by name: the alpha that a footprint of this spread has.
+type Method = (&'static str, Box<dyn Fn(f64, Spread) -> f64>);
+
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
     const DOMAIN: &str = "footprints of 8 x 8 normals (noise, waves, pyramids; slopes 0.05..0.5), roughness 0.3, 0.5, 0.7; \
                           half the integral of |one lobe - mean of the fine lobes|, 0..1";
-    let methods: Vec<(&str, Box<dyn Fn(f64, Spread) -> f64>)> =
+    let methods: Vec<Method> =
         std::iter::once(("unchanged", Box::new(|alpha, _| alpha) as Box<dyn Fn(f64, Spread) -> f64>))
             .chain(Rule::ALL.map(|rule| (rule.name(), Box::new(move |a, s| rule.alpha(a, s)) as _)))
             .collect();
@@ -28,7 +31,7 @@ pub fn rows(effort: Effort) -> Vec<Row> {
 
     let cells = effort.pick(48, 128);
     let surfaces = surfaces();
-    let row = |((name, rule), seconds): (&(&str, Box<dyn Fn(f64, Spread) -> f64>), f64)| {
+    let row = |((name, rule), seconds): (&Method, f64)| {
         let mut errors = Errors::default();
         for (surface, normals) in &surfaces {
             for roughness in [0.3_f64, 0.5, 0.7] {
