@@ -19,7 +19,7 @@ fn map_of(environment: &LoadedEnvironment) -> &Equirect {
 }
 
 /// How a shader reads a bake: by direction and perceptual roughness.
-type Read = dyn Fn(&BakedEnvironment, [f64; 3], f64) -> [f32; 3];
+type Read<'a> = dyn Fn(&BakedEnvironment, [f64; 3], f64) -> [f32; 3] + 'a;
 
 /// The quadrature itself against the tables.
 #[test]
@@ -77,7 +77,7 @@ fn any_roughness() {
         let count = if name.starts_with("bpy") { 1000u32 } else { 300 };
         let points: Vec<([f64; 3], f64)> = (0..count).map(random_point).collect();
         let expected: Vec<[f64; 3]> = points.par_iter().map(|&(dir, r)| truth.prefiltered(dir, r)).collect();
-        let errors = |baked: &BakedEnvironment, read: &Read| {
+        let errors = |baked: &BakedEnvironment, read: &Read<'_>| {
             let errors: Vec<f64> = points
                 .iter()
                 .zip(&expected)
