@@ -23,8 +23,8 @@ fn sheen_albedo(n_dot_w: f32, perceptual_roughness: f32) -> f32 {
     let mu = clamp(n_dot_w, 1e-7, 1.0);
     let at_grazing = (0.3848 + r * (0.0543 + r * 0.1748)) * inv_r;
     let falloff = 1.0701 + 1.0386 * inv_r - 0.7959 * r;
-    // log2(e) = 1.442695
-    return at_grazing * exp2(-1.442695 * falloff * exp2(0.89 * log2(mu)));
+    // log2(e) = 1.4426950408889634
+    return at_grazing * exp2(-1.4426950408889634 * falloff * exp2(0.89 * log2(mu)));
 }
 
 /// BRDF times n.l for the unit direction `l` to a light, color D V n.l / max(1, 1.03 E(v), 1.03 E(l)) in 1/sr; 0 where the

@@ -1,6 +1,6 @@
 // Polished metal, made by Halfvector
 // serves: an environment; returns linear radiance, Rec. 709
-// methods: compensation=turquin, dfg=table, prefilter=ggx, level_map=linear
+// methods: compensation=turquin, dfg=table, prefilter=ggx, level_map=hermite
 // left out: diffuse lobe: metallic is 1: a metal reflects nothing diffusely
 // left out: emission: it is 0
 // left out: occlusion: it is 1
@@ -53,8 +53,8 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.2);
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
-    let reflection_lod = lod_linear(0.2, view.environment_levels);
-    let reflection = environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
+    let reflection_lod = lod_geometric(0.2, view.environment_levels);
+    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
     var radiance = specular_environment(specular, reflection, dfg) * compensation;
     return vec4f(radiance, 1.0);
 }
@@ -147,15 +147,34 @@ fn normal_in_world(normal_from_object: mat3x3f, normal: vec3f) -> vec3f {
 
 // ---- ibl/environment.wgsl
 
-/// Level that holds a perceptual roughness when level i of n is prefiltered for i / (n - 1).
-fn lod_linear(perceptual_roughness: f32, levels: f32) -> f32 {
-    return perceptual_roughness * (levels - 1.0);
+/// Level that holds a perceptual roughness when level 0 is the unfiltered environment, level 1 is prefiltered for 0.1, the
+/// last for 1, and each between them for the same multiple of the one before.
+fn lod_geometric(perceptual_roughness: f32, levels: f32) -> f32 {
+    let above = 1.0 + (levels - 2.0) * (log2(max(10.0 * perceptual_roughness, 1.0)) / log2(10.0));
+    let below = 10.0 * perceptual_roughness;
+    return min(select(above, below, below < 1.0), levels - 1.0);
 }
 
-/// Radiance that arrives from a direction, prefiltered as much as the level says; mixed linearly between levels.
-/// `dir` need not be unit. An explicit level, so it may stand under control flow and in any stage.
-fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f, lod: f32) -> vec3f {
-    return textureSampleLevel(cube, cube_sampler, dir, lod).rgb;
+/// Radiance between two levels of which the fourth channel holds how log2(red + green + blue) changes from level to level,
+/// as a derivative; `t` is 0 at `near` and 1 at `far`.
+/// Where a lobe meets a lamp the light goes with a power of its width, falling in the middle and rising outside, so that
+/// logarithms are mixed: of the colours linearly, and of their sum by Hermite's cubic, which also follows the slopes.
+/// 1e-7, less than half precision resolves, keeps black finite.
+fn mix_levels(near: vec4f, far: vec4f, t: f32) -> vec3f {
+    let tiny = 1e-7;
+    let rise = log2((far.r + far.g + far.b + tiny) / (near.r + near.g + near.b + tiny));
+    let bend = t * (1.0 - t) * ((1.0 - t) * (near.a - rise) - t * (far.a - rise));
+    return max(exp2(mix(log2(near.rgb + tiny), log2(far.rgb + tiny), t) + bend) - tiny, vec3f(0.0));
+}
+
+/// Radiance that arrives from a direction, prefiltered as much as the level says, from levels with slopes: see
+/// `mix_levels`. Below level 1, where the environment itself may be black, the mix is linear.
+fn environment_sample_hermite(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f, lod: f32) -> vec3f {
+    let mip = floor(lod);
+    let near = textureSampleLevel(cube, cube_sampler, dir, mip);
+    let far = textureSampleLevel(cube, cube_sampler, dir, mip + 1.0);
+    let t = lod - mip;
+    return select(mix_levels(near, far, t), mix(near.rgb, far.rgb, t), lod < 1.0);
 }
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.

@@ -2,7 +2,7 @@
 // serves: 2 directional lights, 1 point light, 3 spot lights, an environment, turned about +Y; returns display values
 //     through the tone map `pbr-neutral`
 // methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, compensation=turquin, coupling=view, dfg=table,
-//     prefilter=ggx, level_map=linear, irradiance=cube, specular_occlusion=cone, height_normals=derived
+//     prefilter=ggx, level_map=hermite, irradiance=cube, specular_occlusion=cone, height_normals=derived
 // left out: horizon: the shading normal is the geometry's: no reflection comes from below
 // left out: opacity: the material is opaque
 // left out: normals of the displaced surface: height is the same everywhere
@@ -95,8 +95,8 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let reflection_dir = rotate_about_y(reflect(-frame.view_dir, frame.normal), view.environment_rotation);
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, rotate_about_y(frame.normal, view.environment_rotation), 0.0);
     radiance += diffuse_environment(diffuse, irradiance) * parameters.occlusion;
-    let reflection_lod = lod_linear(parameters.perceptual_roughness, view.environment_levels);
-    let reflection = environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
+    let reflection_lod = lod_geometric(parameters.perceptual_roughness, view.environment_levels);
+    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
     radiance += specular_environment(specular, reflection, dfg) * compensation * specular_occlusion_cone(frame.n_dot_v, parameters.occlusion, parameters.perceptual_roughness);
     radiance += parameters.emission;
     let display = srgb_from_linear(tone_map_pbr_neutral(radiance * view.exposure));
@@ -355,15 +355,40 @@ fn rotate_about_y(dir: vec3f, cos_sin: vec2f) -> vec3f {
     return vec3f(cos_sin.x * dir.x - cos_sin.y * dir.z, dir.y, cos_sin.y * dir.x + cos_sin.x * dir.z);
 }
 
-/// Level that holds a perceptual roughness when level i of n is prefiltered for i / (n - 1).
-fn lod_linear(perceptual_roughness: f32, levels: f32) -> f32 {
-    return perceptual_roughness * (levels - 1.0);
+/// Level that holds a perceptual roughness when level 0 is the unfiltered environment, level 1 is prefiltered for 0.1, the
+/// last for 1, and each between them for the same multiple of the one before.
+fn lod_geometric(perceptual_roughness: f32, levels: f32) -> f32 {
+    let above = 1.0 + (levels - 2.0) * (log2(max(10.0 * perceptual_roughness, 1.0)) / log2(10.0));
+    let below = 10.0 * perceptual_roughness;
+    return min(select(above, below, below < 1.0), levels - 1.0);
 }
 
 /// Radiance that arrives from a direction, prefiltered as much as the level says; mixed linearly between levels.
 /// `dir` need not be unit. An explicit level, so it may stand under control flow and in any stage.
 fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f, lod: f32) -> vec3f {
     return textureSampleLevel(cube, cube_sampler, dir, lod).rgb;
+}
+
+/// Radiance between two levels of which the fourth channel holds how log2(red + green + blue) changes from level to level,
+/// as a derivative; `t` is 0 at `near` and 1 at `far`.
+/// Where a lobe meets a lamp the light goes with a power of its width, falling in the middle and rising outside, so that
+/// logarithms are mixed: of the colours linearly, and of their sum by Hermite's cubic, which also follows the slopes.
+/// 1e-7, less than half precision resolves, keeps black finite.
+fn mix_levels(near: vec4f, far: vec4f, t: f32) -> vec3f {
+    let tiny = 1e-7;
+    let rise = log2((far.r + far.g + far.b + tiny) / (near.r + near.g + near.b + tiny));
+    let bend = t * (1.0 - t) * ((1.0 - t) * (near.a - rise) - t * (far.a - rise));
+    return max(exp2(mix(log2(near.rgb + tiny), log2(far.rgb + tiny), t) + bend) - tiny, vec3f(0.0));
+}
+
+/// Radiance that arrives from a direction, prefiltered as much as the level says, from levels with slopes: see
+/// `mix_levels`. Below level 1, where the environment itself may be black, the mix is linear.
+fn environment_sample_hermite(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f, lod: f32) -> vec3f {
+    let mip = floor(lod);
+    let near = textureSampleLevel(cube, cube_sampler, dir, mip);
+    let far = textureSampleLevel(cube, cube_sampler, dir, mip + 1.0);
+    let t = lod - mip;
+    return select(mix_levels(near, far, t), mix(near.rgb, far.rgb, t), lod < 1.0);
 }
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
