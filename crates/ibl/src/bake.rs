@@ -1,5 +1,9 @@
 //! From a loaded environment to what a shader reads: prefiltered levels, irradiance, harmonics.
 
+mod filtered;
+
+pub use filtered::{FilterJob, Filtered, bake_filtered_by};
+
 use crate::cube::{Cube, texel_direction, texels, unit};
 use crate::equirect::Equirect;
 use crate::harmonics::{Grid, MAX_BAND, Spectrum};
@@ -222,6 +226,9 @@ impl Quality {
     }
 }
 
+/// Largest slope. Beyond what a lamp does between levels as far apart as they may be there is only noise of black places.
+const STEEPEST: f64 = 16.0;
+
 /// GGX at roughness 1 is the cosine.
 const DIFFUSE: Lobe = Lobe::Ggx(1.0);
 
@@ -291,8 +298,7 @@ impl Level {
         let texels = texels(self.size, |face, i, j| {
             let [r, g, b, change] = grid.sample_with_grey(unit(texel_direction(self.size, face, i as f64, j as f64)));
             let slope = f64::from(change) / (f64::from(r + g + b) * LN_2).max(f64::MIN_POSITIVE);
-            // Beyond what a lamp does between levels as far apart as they may be there is only noise of black places.
-            [r, g, b, slope.clamp(-16.0, 16.0) as f32]
+            [r, g, b, slope.clamp(-STEEPEST, STEEPEST) as f32]
         });
         let slopes = texels.iter().map(|texel| texel[3]).collect();
         (Cube { size: self.size, texels: texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect() }, slopes)

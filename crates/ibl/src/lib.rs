@@ -29,7 +29,10 @@ mod resample;
 mod sampling;
 pub mod save;
 
-pub use bake::{BakeOptions, BakedEnvironment, LevelMap, MAX_SIZE, Prefilter, Quality, bake, bake_with_progress};
+pub use bake::{
+    BakeOptions, BakedEnvironment, FilterJob, Filtered, LevelMap, MAX_SIZE, Prefilter, Quality, bake, bake_filtered_by,
+    bake_with_progress,
+};
 pub use builtin::{sky, studio, white};
 pub use cube::{Cube, direction_from_face, face_from_direction, texel_solid_angle};
 pub use dfg::{DFG_SIZE, DfgTable, Visibility, dfg, dfg_table, dfg_table_with};

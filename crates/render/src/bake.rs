@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use bytemuck::{Pod, Zeroable};
-use halfvector_ibl::{Cube, Equirect};
+use halfvector_ibl::{Cube, Equirect, FilterJob, Filtered};
 use halfvector_shaders::FILES;
 
 use crate::device::Gpu;
@@ -134,8 +134,9 @@ impl<'a> Filter<'a> {
         Ok(filter)
     }
 
-    /// The map filtered with the prefilter lobe (n = v = r) of `alpha` in 0..=1; 1 gives irradiance over pi.
-    pub(crate) fn cube(&self, alpha: f64, size: usize) -> Result<Cube, RenderError> {
+    /// The map filtered with a lobe.
+    pub(crate) fn cube(&self, job: FilterJob) -> Result<Filtered, RenderError> {
+        let FilterJob { alpha, size } = job;
         const DOING: &str = "filtering the environment";
         self.gpu.guarded(DOING, || {
             let count = 6 * (size * size) as u32;
@@ -149,13 +150,16 @@ impl<'a> Filter<'a> {
             let uniforms = Uniforms {
                 face_size: size as u32,
                 alpha: alpha as f32,
-                scale: (1.0 / lobe_integral(alpha)) as f32,
+                scale: (1.0 / lobe_integral(alpha * alpha)) as f32,
                 ..self.shape
             };
             self.dispatch(&self.pipeline, &texels, uniforms, count)?;
             let numbers = self.gpu.read_buffer(&texels, DOING)?;
+            // The shader's light is weighted by a lobe whose integral changes, too.
+            let own = lobe_integral_change(alpha * alpha) as f32;
+            let change = numbers.chunks_exact(4).map(|t| t[3] - own).collect();
             let texels = numbers.chunks_exact(4).map(|t| [t[0], t[1], t[2]]).collect();
-            Ok(Cube { size, texels })
+            Ok((Cube { size, texels }, change))
         })
     }
 
@@ -272,14 +276,20 @@ fn columns(map: &Equirect) -> Vec<[f32; 2]> {
         .collect()
 }
 
-/// The integral over the hemisphere of the shader's lobe x (a / (a + b (1 - x)))^2, a = alpha^2, b = (1 - a) / 2:
-/// 2 pi (a / b)^2 (b / a - ln(1 + b / a)), which is pi at alpha = 1.
-fn lobe_integral(alpha: f64) -> f64 {
-    let a = alpha * alpha;
+/// The integral over the hemisphere of the shader's lobe x (a / (a + b (1 - x)))^2, b = (1 - a) / 2:
+/// 2 pi (a / b)^2 (b / a - ln(1 + b / a)), which is pi at a = 1.
+fn lobe_integral(a: f64) -> f64 {
     let ratio = (1.0 - a) / (2.0 * a);
     // Near 1 the difference cancels: its series is ratio^2 (1/2 - ratio/3 + ...).
-    let part = if ratio < 1e-4 { 0.5 - ratio / 3.0 } else { (ratio - ratio.ln_1p()) / (ratio * ratio) };
+    let part = if ratio.abs() < 1e-4 { 0.5 - ratio / 3.0 } else { (ratio - ratio.ln_1p()) / (ratio * ratio) };
     2.0 * PI * part
+}
+
+/// How the logarithm of that integral changes with the logarithm of a, over the step that the shader takes.
+fn lobe_integral_change(a: f64) -> f64 {
+    // The shader's step.
+    const WIDER: f64 = 1.02;
+    (lobe_integral(a * WIDER) / lobe_integral(a / WIDER)).ln() / (2.0 * WIDER.ln())
 }
 
 #[cfg(test)]
@@ -300,7 +310,7 @@ mod tests {
                 })
                 .sum();
             let numeric = 2.0 * PI * sum / f64::from(n);
-            assert!((lobe_integral(alpha) / numeric - 1.0).abs() < 1e-6, "{alpha}: {} {numeric}", lobe_integral(alpha));
+            assert!((lobe_integral(a) / numeric - 1.0).abs() < 1e-6, "{alpha}: {} {numeric}", lobe_integral(a));
         }
     }
 

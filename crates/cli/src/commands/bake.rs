@@ -7,12 +7,13 @@ use halfvector_ibl::{
     BakeOptions, BakedEnvironment, Cube, LevelMap, LoadedEnvironment, MAX_SIZE, Quality, Source, StoredLevels,
     StoredLobe, save,
 };
+use halfvector_render::Renderer;
 use halfvector_scene::EnvironmentSource;
 
 use crate::environment::{bake_with_bar, ggx_roughness, load};
 use crate::failure::Failure;
 use crate::harmonics_file;
-use crate::output::{check_place, note, write_file};
+use crate::output::{check_place, note, progress, write_file};
 use crate::set_value::numbers;
 
 /// Prefilters an environment for real-time light: a cube map whose levels are filtered for a rising roughness.
@@ -55,16 +56,19 @@ pub(crate) struct BakeArgs {
     /// Also writes the spherical harmonics of the light and of its irradiance
     #[arg(long, value_name = "FILE.json")]
     sh: Option<PathBuf>,
-    /// Who computes: auto or cpu
+    /// Who computes: auto, cpu or gpu; auto takes a GPU that is no program on the CPU
     #[arg(long, value_name = "NAME", default_value = "auto", value_parser = parse_backend)]
     backend: Backend,
 }
 
-/// Who computes. With one backend there is no choice yet: both mean the CPU.
+/// Who computes.
 #[derive(Clone, Copy, Debug)]
 enum Backend {
+    /// A GPU of silicon where there is one, or the CPU.
     Auto,
     Cpu,
+    /// Any GPU, a software one included.
+    Gpu,
 }
 
 /// A file of cube levels to write.
@@ -94,8 +98,6 @@ const HDRE_MAX_BYTES: usize = 60_000_000;
 
 /// Runs the command.
 pub(crate) fn run(args: &BakeArgs) -> Result<u8, Failure> {
-    // Both mean the same as long as there is no other backend.
-    let (Backend::Auto | Backend::Cpu) = args.backend;
     check_files(args)?;
     let loaded = load(&args.environment)?.ok_or_else(|| {
         Failure::usage("`none` is no environment: there is nothing to bake").try_to("a file, or white, studio or sky")
@@ -113,7 +115,10 @@ pub(crate) fn run(args: &BakeArgs) -> Result<u8, Failure> {
         files.push(file(&args.output, save::hdre(&stored.levels, stored.irradiance_sh.as_ref()))?);
     }
     if kept.is_none() || args.irradiance.is_some() || args.sh.is_some() {
-        let baked = bake_with_bar(&loaded, &plan.options);
+        let baked = match renderer(args.backend)? {
+            Some(renderer) => bake_on_gpu(&renderer, &loaded, &plan.options)?,
+            None => bake_with_bar(&loaded, &plan.options),
+        };
         if kept.is_none() {
             let (levels, roughness) = plan.levels(&baked);
             // A bake that has slopes has the file's levels, none skipped or resized.
@@ -141,6 +146,36 @@ pub(crate) fn run(args: &BakeArgs) -> Result<u8, Failure> {
         note(format_args!("{}", path.display()));
     }
     Ok(0)
+}
+
+/// The GPU to bake on, if any.
+fn renderer(backend: Backend) -> Result<Option<Renderer>, Failure> {
+    match backend {
+        Backend::Cpu => Ok(None),
+        Backend::Auto => Ok(Renderer::new().ok().filter(|renderer| !renderer.is_software())),
+        Backend::Gpu => {
+            let renderer = Renderer::new().map_err(|error| {
+                Failure::input("the environment could not be baked on the GPU").because(error).try_to("--backend cpu")
+            })?;
+            if renderer.is_software() {
+                note(format_args!("note: {} is a program on the CPU; --backend cpu is faster", renderer.adapter()));
+            }
+            Ok(Some(renderer))
+        }
+    }
+}
+
+fn bake_on_gpu(
+    renderer: &Renderer,
+    loaded: &LoadedEnvironment,
+    options: &BakeOptions,
+) -> Result<BakedEnvironment, Failure> {
+    let bar = progress("prefiltering the environment");
+    let baked = renderer.bake(loaded, options, |done| bar.set_position((done * 1000.0) as u64));
+    bar.finish_and_clear();
+    baked.map_err(|error| {
+        Failure::input("the environment could not be baked on the GPU").because(error).try_to("--backend cpu")
+    })
 }
 
 /// Refuses places that cannot be written to, and one place for two files.
@@ -195,7 +230,8 @@ impl Plan {
         }
         let asked = match (&args.roughness, args.levels, stored) {
             (Some(Roughness(list)), ..) => Some(list.clone()),
-            // The file's own, when nothing else is asked for.
+            // The file's own, when nothing else is asked for; with slopes they are those of a plain bake.
+            (None, None, Some(_)) if has_slopes(loaded) => None,
             (None, None, Some(stored)) => Some(stored.to_vec()),
             (None, ..) => None,
         };
@@ -208,7 +244,8 @@ impl Plan {
         }
         let faces = (0..most).map(|level| size >> level).collect();
         let Some(mut list) = asked else {
-            let options = BakeOptions { levels: args.levels.map(|levels| levels as usize), ..plain };
+            let own = stored.filter(|_| has_slopes(loaded)).map(<[f32]>::len);
+            let options = BakeOptions { levels: args.levels.map(|levels| levels as usize).or(own), ..plain };
             return Ok(Plan { options, faces, skipped: 0 });
         };
         // The first level of a bake is the environment itself: one that is not comes second, of a cube twice as large.
@@ -254,6 +291,11 @@ impl Plan {
         let levels = baked.radiance[self.skipped..].iter().zip(&self.faces).map(|(level, &size)| level.resized(size));
         (levels.collect(), &baked.roughness[self.skipped..])
     }
+}
+
+/// Whether the environment is levels with slopes between them.
+fn has_slopes(loaded: &LoadedEnvironment) -> bool {
+    matches!(&loaded.source, Source::Levels(stored) if !stored.slope.is_empty())
 }
 
 fn coded(
@@ -316,8 +358,8 @@ fn parse_backend(text: &str) -> Result<Backend, String> {
     match text {
         "auto" => Ok(Backend::Auto),
         "cpu" => Ok(Backend::Cpu),
-        "gpu" => Err("bakes do not run on the GPU yet; auto and cpu do the same work on the CPU".to_owned()),
-        _ => Err("the backends are auto and cpu".to_owned()),
+        "gpu" => Ok(Backend::Gpu),
+        _ => Err("the backends are auto, cpu and gpu".to_owned()),
     }
 }
 

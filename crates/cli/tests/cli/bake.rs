@@ -50,6 +50,19 @@ fn levels_irradiance_and_harmonics() {
 }
 
 #[test]
+fn a_gpu_bakes_when_it_is_asked_to() {
+    let folder = Folder::new();
+    let run = folder.run(&["bake", "studio", "-o", "gpu.ktx2", "--size", "16", "--backend", "gpu"]);
+    if run.code == 0 {
+        folder.run(&["bake", "studio", "-o", "cpu.ktx2", "--size", "16", "--backend", "cpu"]).ends(0);
+        let read = |name: &str| std::fs::read(folder.path(name)).expect("written");
+        assert_eq!(header(&read("gpu.ktx2")), header(&read("cpu.ktx2")));
+    } else {
+        run.ends(1).says("no GPU was found").says("--backend cpu");
+    }
+}
+
+#[test]
 fn formats_and_levels_as_asked() {
     let folder = Folder::new();
     let read = |name: &str| std::fs::read(folder.path(name)).expect("written");
