@@ -50,7 +50,7 @@ pub(crate) struct BakeArgs {
     /// How a KTX2 file stores a texel: rgba16f, rgba32f, or rgb9e5, the smallest
     #[arg(long, value_name = "NAME", default_value = "rgba16f", value_parser = parse_texels)]
     texels: TexelFormat,
-    /// Also writes diffuse irradiance over pi as a cube of 64 texels, .ktx2 or .exr
+    /// Also writes diffuse irradiance over pi as a cube of 192 texels, .ktx2 or .exr
     #[arg(long, value_name = "OUT2", value_parser = parse_cube_file)]
     irradiance: Option<CubeFile>,
     /// Also writes the spherical harmonics of the light and of its irradiance
