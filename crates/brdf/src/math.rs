@@ -12,7 +12,7 @@ pub(crate) const LENGTH2_FLOOR: f64 = 1e-37;
 /// Longest squared length that is still divided by: above it the sum of squares overflows f32.
 const LENGTH2_CEILING: f64 = 1e37;
 /// Every number of the library's domain is smaller; f32 ends at 3.4e38.
-const FINITE_CEILING: f64 = 3e38;
+pub(crate) const FINITE_CEILING: f64 = 3e38;
 
 /// x^5 by three products.
 ///

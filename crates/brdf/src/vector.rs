@@ -5,7 +5,7 @@ use crate::Real;
 /// Dot product.
 #[inline]
 pub fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    a[2].mul_add(b[2], a[1].mul_add(b[1], a[0] * b[0]))
 }
 
 /// Cross product.
