@@ -25,6 +25,13 @@ struct Parameters {
     occlusion: f32,
     emission: vec3f,
     height: f32,
+    coat_weight: f32,
+    coat_color: vec3f,
+    coat_roughness: f32,
+    coat_ior: f32,
+    sheen_color: vec3f,
+    sheen_roughness: f32,
+    transmission_weight: f32,
 }
 @group(1) @binding(0) var<uniform> parameters: Parameters;
 struct Object {
@@ -64,17 +71,31 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let dielectric_f0_2 = dielectric_f0 * parameters.specular;
     let f0 = f0_from_metallic(parameters.base_color, parameters.metallic, dielectric_f0_2);
     let f90 = mix(parameters.specular, 1.0, parameters.metallic);
+    let coat_f0 = f0_from_ior(parameters.coat_ior);
     let frame = frame_from_normal(world_normal, view_dir);
     let specular = Specular(f0, vec3f(f90), alpha_from_perceptual_roughness(parameters.perceptual_roughness));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, parameters.perceptual_roughness);
-    let diffuse = Diffuse(diffuse_albedo, parameters.perceptual_roughness);
+    let diffuse = Diffuse(diffuse_albedo * (1.0 - parameters.transmission_weight), parameters.perceptual_roughness);
+    let transmission = Transmission(diffuse_albedo * parameters.transmission_weight, parameters.ior, alpha_from_perceptual_roughness(parameters.perceptual_roughness));
+    let coat = Coat(parameters.coat_weight, parameters.coat_color, coat_f0, alpha_from_perceptual_roughness(parameters.coat_roughness));
+    let coat_dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, parameters.coat_roughness);
+    let under_coat = coat_base(coat, frame.n_dot_v, coat_dfg);
+    let sheen = Sheen(parameters.sheen_color, parameters.sheen_roughness);
+    let under_sheen = sheen_base(sheen, frame.n_dot_v);
+    let under_layers = under_coat * under_sheen;
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
     let irradiance = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, lod_report(1.0, view.environment_levels)));
-    var radiance = diffuse_environment(diffuse, irradiance) * parameters.occlusion;
+    var radiance = diffuse_environment(diffuse, irradiance) * parameters.occlusion * under_layers;
     let reflection_lod = lod_report(parameters.perceptual_roughness, view.environment_levels);
     let reflection = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod));
-    radiance += specular_environment(specular, reflection, dfg) * parameters.occlusion;
-    radiance += parameters.emission;
+    radiance += specular_environment(specular, reflection, dfg) * parameters.occlusion * under_layers;
+    let transmitted = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, transmission_direction(frame, transmission.eta), lod_report(parameters.perceptual_roughness, view.environment_levels)));
+    radiance += transmission_environment(transmission, dielectric_f0_2, transmitted, dfg) * under_layers;
+    let coat_mirror_dir = reflect(-frame.view_dir, frame.normal);
+    let coat_reflection = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, coat_mirror_dir, lod_report(parameters.coat_roughness, view.environment_levels)));
+    radiance += coat_environment(coat, coat_reflection, coat_dfg) * parameters.occlusion * under_sheen;
+    radiance += sheen_environment(sheen, frame.n_dot_v, irradiance) * parameters.occlusion;
+    radiance += parameters.emission * under_layers;
     return vec4f(radiance, 1.0);
 }
 
@@ -134,6 +155,44 @@ fn alpha_from_perceptual_roughness(perceptual_roughness: f32) -> f32 {
     return r * r;
 }
 
+// ---- brdf/lobe_coat.wgsl
+
+// Smallest channel of the coat's colour: its logarithm is taken.
+const COLOR_FLOOR: f32 = 1e-6;
+
+/// Parameters of the coat.
+struct Coat {
+    /// Presence of the coat in [0, 1].
+    weight: f32,
+    /// Transmittance through the coat and back, at normal incidence, in [0, 1].
+    color: vec3f,
+    /// Reflectance at normal incidence, ((ior - 1)/(ior + 1))^2.
+    f0: f32,
+    /// Square of the coat's perceptual roughness.
+    alpha: f32,
+}
+
+/// Radiance that the coat reflects from an environment: `prefiltered_radiance` of the mirror direction at the coat's
+/// roughness, times weight (f0 a + b) for the split-sum pair `dfg` at the coat's roughness.
+fn coat_environment(p: Coat, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
+    return finite_or_zero(prefiltered_radiance * (p.weight * (p.f0 * dfg.x + dfg.y)));
+}
+
+/// What the base keeps of its own light below the coat, seen at n.v: 1 + weight (T (1 - f0 a - b) - 1), with the split-sum
+/// pair `dfg` at the coat's roughness and the transmittance T = color^(1 / cos theta_t), cos theta_t the refracted cosine.
+///
+/// Beer and Lambert's law over the path of the refracted view ray. View-only. Each channel is in [0, 1].
+fn coat_base(p: Coat, n_dot_v: f32, dfg: vec2f) -> vec3f {
+    let s = sqrt(clamp(p.f0, 0.0, 0.9));
+    let inv_eta = (1.0 - s) / (1.0 + s);
+    let mu = saturate(n_dot_v);
+    let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - mu * mu);
+    let path = 1.0 / sqrt(max(cos2, 1e-4));
+    let through = saturate(1.0 - p.f0 * dfg.x - dfg.y);
+    let transmittance = exp2(log2(clamp(p.color, vec3f(COLOR_FLOOR), vec3f(1.0))) * path);
+    return 1.0 + saturate(p.weight) * (transmittance * through - 1.0);
+}
+
 // ---- brdf/lobe_diffuse.wgsl
 
 /// Parameters of the diffuse lobe.
@@ -147,6 +206,44 @@ struct Diffuse {
 /// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.
 fn diffuse_environment(p: Diffuse, irradiance_over_pi: vec3f) -> vec3f {
     return finite_or_zero(p.color * irradiance_over_pi);
+}
+
+// ---- brdf/lobe_sheen.wgsl
+
+// Smallest perceptual roughness of the fit of the albedo.
+const SHEEN_ROUGHNESS_FLOOR: f32 = 0.05;
+
+/// Parameters of the sheen.
+struct Sheen {
+    /// Colour times weight, linear Rec. 709, in [0, 1].
+    color: vec3f,
+    /// Artist's roughness in [0, 1]; held above 0.05.
+    perceptual_roughness: f32,
+}
+
+/// Directional albedo of the white lobe before it is held at 1: our own fit to quadrature in the perceptual roughness r,
+/// E = (0.3848 + 0.0543 r + 0.1748 r^2) / r exp(-(1.0701 + 1.0386 / r - 0.7959 r) mu^0.89).
+fn sheen_albedo(n_dot_w: f32, perceptual_roughness: f32) -> f32 {
+    let r = clamp(perceptual_roughness, SHEEN_ROUGHNESS_FLOOR, 1.0);
+    let inv_r = 1.0 / r;
+    let mu = clamp(n_dot_w, 1e-7, 1.0);
+    let at_grazing = (0.3848 + r * (0.0543 + r * 0.1748)) * inv_r;
+    let falloff = 1.0701 + 1.0386 * inv_r - 0.7959 * r;
+    // log2(e) = 1.4426950408889634
+    return at_grazing * exp2(-1.4426950408889634 * falloff * exp2(0.89 * log2(mu)));
+}
+
+/// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1) times the radiance filtered by the
+/// lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
+fn sheen_environment(p: Sheen, n_dot_v: f32, prefiltered_radiance: vec3f) -> vec3f {
+    return finite_or_zero(p.color * min(sheen_albedo(n_dot_v, p.perceptual_roughness), 1.0) * prefiltered_radiance);
+}
+
+/// What the base keeps of its own light below the sheen: 1 - max(color) min(E(v), 1). Estevez and Kulla 2017, albedo
+/// scaling. View-only. In [0, 1].
+fn sheen_base(p: Sheen, n_dot_v: f32) -> f32 {
+    let albedo = min(sheen_albedo(n_dot_v, p.perceptual_roughness), 1.0);
+    return saturate(1.0 - max(max(p.color.r, p.color.g), p.color.b) * albedo);
 }
 
 // ---- brdf/lobe_specular.wgsl
@@ -165,6 +262,34 @@ struct Specular {
 /// lobe's directional albedo.
 fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
     return finite_or_zero(prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg));
+}
+
+// ---- brdf/lobe_transmission.wgsl
+
+/// Parameters of transmission.
+struct Transmission {
+    /// Share of the light that passes, linear Rec. 709.
+    color: vec3f,
+    /// Index of refraction behind the surface over the index on the viewer's side: ior from outside, 1 / ior from inside.
+    eta: f32,
+    /// Square of the perceptual roughness.
+    alpha: f32,
+}
+
+/// The direction in which an environment is looked up for solid transmission: v refracted by the smooth surface, Snell's
+/// law; where it is totally reflected, the grazing ray. For a thin wall it is -v.
+fn transmission_direction(frame: Frame, eta: f32) -> vec3f {
+    let inv_eta = 1.0 / max(eta, 1e-6);
+    let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - frame.n_dot_v * frame.n_dot_v);
+    let along = inv_eta * frame.n_dot_v - sqrt(max(cos2, 0.0));
+    return normalize_or(frame.normal * along - frame.view_dir * inv_eta, -frame.normal);
+}
+
+/// Radiance that arrives through the surface from an environment: color (1 - f0 a - b) times the radiance of
+/// transmission_direction, filtered by the lobe's roughness, with the split-sum pair `dfg` and the interface's f0.
+/// The compression by eta^2 is left out: a ray that enters a body leaves it again.
+fn transmission_environment(p: Transmission, f0: f32, transmitted_radiance: vec3f, dfg: vec2f) -> vec3f {
+    return finite_or_zero(p.color * saturate(1.0 - f0 * dfg.x - dfg.y) * transmitted_radiance);
 }
 
 // ---- brdf/metallic_roughness.wgsl

@@ -25,6 +25,13 @@ struct Parameters {
     specular: f32,
     emission: vec3f,
     height: f32,
+    coat_weight: f32,
+    coat_color: vec3f,
+    coat_roughness: f32,
+    coat_ior: f32,
+    sheen_color: vec3f,
+    sheen_roughness: f32,
+    transmission_weight: f32,
 }
 @group(1) @binding(0) var<uniform> parameters: Parameters;
 struct Object {
@@ -64,15 +71,26 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let dielectric_f0_2 = dielectric_f0 * parameters.specular;
     let f0 = f0_from_metallic(parameters.base_color, parameters.metallic, dielectric_f0_2);
     let f90 = mix(parameters.specular, 1.0, parameters.metallic);
+    let coat_f0 = f0_from_ior(parameters.coat_ior);
     let frame = frame_from_normal(world_normal, view_dir);
     let specular = Specular(f0, vec3f(f90), alpha_from_perceptual_roughness(max(parameters.perceptual_roughness, PUNCTUAL_ROUGHNESS_FLOOR)));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, parameters.perceptual_roughness);
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
-    let diffuse = Diffuse(diffuse_albedo * coupling_compensated(dielectric_f0_2, parameters.specular, dfg), parameters.perceptual_roughness);
+    let diffuse = Diffuse(diffuse_albedo * (1.0 - parameters.transmission_weight) * coupling_compensated(dielectric_f0_2, parameters.specular, dfg), parameters.perceptual_roughness);
+    let transmission = Transmission(diffuse_albedo * parameters.transmission_weight, parameters.ior, alpha_from_perceptual_roughness(max(parameters.perceptual_roughness, PUNCTUAL_ROUGHNESS_FLOOR)));
+    let coat = Coat(parameters.coat_weight, parameters.coat_color, coat_f0, alpha_from_perceptual_roughness(max(parameters.coat_roughness, PUNCTUAL_ROUGHNESS_FLOOR)));
+    let coat_dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, parameters.coat_roughness);
+    let under_coat = coat_base(coat, frame.n_dot_v, coat_dfg);
+    let sheen = Sheen(parameters.sheen_color, parameters.sheen_roughness);
+    let under_sheen = sheen_base(sheen, frame.n_dot_v);
+    let under_layers = under_coat * under_sheen;
     let directional_light = directional_light_sample(lights.directional, in.world_position);
-    var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * directional_light.illuminance;
-    radiance += specular_eval(frame, directional_light.dir, specular) * compensation * directional_light.illuminance;
-    radiance += parameters.emission;
+    var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * under_layers * directional_light.illuminance;
+    radiance += specular_eval(frame, directional_light.dir, specular) * compensation * under_layers * directional_light.illuminance;
+    radiance += transmission_eval(frame, directional_light.dir, transmission) * under_layers * directional_light.illuminance;
+    radiance += coat_eval(frame, directional_light.dir, coat) * under_sheen * directional_light.illuminance;
+    radiance += sheen_eval(frame, directional_light.dir, sheen) * directional_light.illuminance;
+    radiance += parameters.emission * under_layers;
     return vec4f(radiance, 1.0);
 }
 
@@ -159,10 +177,31 @@ fn half_from_light(frame: Frame, dir: vec3f) -> Half {
 // Largest index of refraction; its square must not overflow.
 const ETA_CEILING: f32 = 1e9;
 
+// Smallest sum of cosines divided by: 0 / 0 at eta = 1, cos = 0. Its square is still a normal f32.
+const COSINE_SUM_FLOOR: f32 = 1e-18;
+
 /// Schlick 1994, An Inexpensive BRDF Model for Physically-based Rendering:
 /// F = f0 + (f90 - f0) (1 - l.h)^5.
 fn f_schlick(f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
     return f0 + (f90 - f0) * pow5(clamp(1.0 - l_dot_h, 0.0, 1.0));
+}
+
+/// Fresnel's equations, unpolarised light, real index `eta` = inside over outside, cosine on the outside:
+/// g = sqrt(eta^2 - 1 + c^2),  r_s = (c - g)/(c + g),  r_p = (eta^2 c - g)/(eta^2 c + g),  F = (r_s^2 + r_p^2)/2.
+/// Born and Wolf 1999, Principles of Optics, section 1.5.
+///
+/// Both differences are written with e = (eta - 1)(eta + 1) as a factor, which has no cancellation at eta near 1:
+/// g - c = e/(g + c),  eta^2 c - g = e (c (g + c) - 1)/(g + c).  Total internal reflection (g^2 < 0) is 1.
+fn f_dielectric(eta: f32, cos_theta: f32) -> f32 {
+    let c = clamp(cos_theta, 0.0, 1.0);
+    let n = min(eta, ETA_CEILING);
+    let e = (n - 1.0) * (n + 1.0);
+    let g2 = e + c * c;
+    let g = sqrt(max(g2, 0.0));
+    let sum = max(g + c, COSINE_SUM_FLOOR);
+    let r_s = e / (sum * sum);
+    let r_p = r_s * sum * (c * sum - 1.0) / max(n * n * c + g, COSINE_SUM_FLOOR);
+    return select(0.5 * (r_s * r_s + r_p * r_p), 1.0, g2 < 0.0);
 }
 
 /// Reflectance at normal incidence of a dielectric in air: ((ior - 1)/(ior + 1))^2.
@@ -216,6 +255,48 @@ fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) 
     return 0.5 / max(view + light, V_FLOOR);
 }
 
+// ---- brdf/lobe_coat.wgsl
+
+// Smallest channel of the coat's colour: its logarithm is taken.
+const COLOR_FLOOR: f32 = 1e-6;
+
+/// Parameters of the coat.
+struct Coat {
+    /// Presence of the coat in [0, 1].
+    weight: f32,
+    /// Transmittance through the coat and back, at normal incidence, in [0, 1].
+    color: vec3f,
+    /// Reflectance at normal incidence, ((ior - 1)/(ior + 1))^2.
+    f0: f32,
+    /// Square of the coat's perceptual roughness.
+    alpha: f32,
+}
+
+/// The coat's reflection times n.l for the unit direction `l` to a light, weight D V F n.l in 1/sr, with Schlick's F from
+/// f0 to 1; 0 where the light is behind the surface.
+fn coat_eval(frame: Frame, l: vec3f, p: Coat) -> vec3f {
+    let h = half_from_light(frame, l);
+    let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
+    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
+    let f = f_schlick(vec3f(p.f0), vec3f(1.0), h.l_dot_h);
+    return finite_or_zero(f * (p.weight * (v * h.n_dot_l * d)));
+}
+
+/// What the base keeps of its own light below the coat, seen at n.v: 1 + weight (T (1 - f0 a - b) - 1), with the split-sum
+/// pair `dfg` at the coat's roughness and the transmittance T = color^(1 / cos theta_t), cos theta_t the refracted cosine.
+///
+/// Beer and Lambert's law over the path of the refracted view ray. View-only. Each channel is in [0, 1].
+fn coat_base(p: Coat, n_dot_v: f32, dfg: vec2f) -> vec3f {
+    let s = sqrt(clamp(p.f0, 0.0, 0.9));
+    let inv_eta = (1.0 - s) / (1.0 + s);
+    let mu = saturate(n_dot_v);
+    let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - mu * mu);
+    let path = 1.0 / sqrt(max(cos2, 1e-4));
+    let through = saturate(1.0 - p.f0 * dfg.x - dfg.y);
+    let transmittance = exp2(log2(clamp(p.color, vec3f(COLOR_FLOOR), vec3f(1.0))) * path);
+    return 1.0 + saturate(p.weight) * (transmittance * through - 1.0);
+}
+
 // ---- brdf/lobe_diffuse.wgsl
 
 /// Parameters of the diffuse lobe.
@@ -231,6 +312,52 @@ fn diffuse_eval(frame: Frame, l: vec3f, p: Diffuse) -> vec3f {
     let h = half_from_light(frame, l);
     let brdf = diffuse_lambert(p.color, frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
     return finite_or_zero(brdf * h.n_dot_l);
+}
+
+// ---- brdf/lobe_sheen.wgsl
+
+// Smallest perceptual roughness of the fit of the albedo.
+const SHEEN_ROUGHNESS_FLOOR: f32 = 0.05;
+
+// What the fit of the albedo may be too low by, as a factor.
+const SHEEN_MARGIN: f32 = 1.03;
+
+/// Parameters of the sheen.
+struct Sheen {
+    /// Colour times weight, linear Rec. 709, in [0, 1].
+    color: vec3f,
+    /// Artist's roughness in [0, 1]; held above 0.05.
+    perceptual_roughness: f32,
+}
+
+/// Directional albedo of the white lobe before it is held at 1: our own fit to quadrature in the perceptual roughness r,
+/// E = (0.3848 + 0.0543 r + 0.1748 r^2) / r exp(-(1.0701 + 1.0386 / r - 0.7959 r) mu^0.89).
+fn sheen_albedo(n_dot_w: f32, perceptual_roughness: f32) -> f32 {
+    let r = clamp(perceptual_roughness, SHEEN_ROUGHNESS_FLOOR, 1.0);
+    let inv_r = 1.0 / r;
+    let mu = clamp(n_dot_w, 1e-7, 1.0);
+    let at_grazing = (0.3848 + r * (0.0543 + r * 0.1748)) * inv_r;
+    let falloff = 1.0701 + 1.0386 * inv_r - 0.7959 * r;
+    // log2(e) = 1.4426950408889634
+    return at_grazing * exp2(-1.4426950408889634 * falloff * exp2(0.89 * log2(mu)));
+}
+
+/// BRDF times n.l for the unit direction `l` to a light, color D V n.l / max(1, 1.03 E(v), 1.03 E(l)) in 1/sr; 0 where the
+/// light is behind the surface.
+fn sheen_eval(frame: Frame, l: vec3f, p: Sheen) -> vec3f {
+    let h = half_from_light(frame, l);
+    let r = clamp(p.perceptual_roughness, SHEEN_ROUGHNESS_FLOOR, 1.0);
+    let d = d_charlie(h.n_dot_h, h.sin2_theta_h, r * r);
+    let v = v_neubelt(frame.n_dot_v, h.n_dot_l, h.l_dot_h, r * r);
+    let most = max(sheen_albedo(frame.n_dot_v, r), sheen_albedo(h.n_dot_l, r)) * SHEEN_MARGIN;
+    return finite_or_zero(p.color * (v * h.n_dot_l * d / max(most, 1.0)));
+}
+
+/// What the base keeps of its own light below the sheen: 1 - max(color) min(E(v), 1). Estevez and Kulla 2017, albedo
+/// scaling. View-only. In [0, 1].
+fn sheen_base(p: Sheen, n_dot_v: f32) -> f32 {
+    let albedo = min(sheen_albedo(n_dot_v, p.perceptual_roughness), 1.0);
+    return saturate(1.0 - max(max(p.color.r, p.color.g), p.color.b) * albedo);
 }
 
 // ---- brdf/lobe_specular.wgsl
@@ -257,6 +384,44 @@ fn specular_eval(frame: Frame, l: vec3f, p: Specular) -> vec3f {
     return finite_or_zero(f * (v * h.n_dot_l * d));
 }
 
+// ---- brdf/lobe_transmission.wgsl
+
+// Smallest square of the denominator of the change of angles: 0 / 0 where eta = 1 and l = -v, which has no half vector.
+const JACOBIAN_FLOOR: f32 = 1e-24;
+
+/// Parameters of transmission.
+struct Transmission {
+    /// Share of the light that passes, linear Rec. 709.
+    color: vec3f,
+    /// Index of refraction behind the surface over the index on the viewer's side: ior from outside, 1 / ior from inside.
+    eta: f32,
+    /// Square of the perceptual roughness.
+    alpha: f32,
+}
+
+/// Solid: BTDF times |n.l| for the unit direction `l` from the surface to a light behind it, in 1/sr:
+/// color (1 - F) |v.h| |l.h| G D / (n.v (v.h + eta l.h)^2), equation 21 of the paper, over the index on the viewer's side.
+/// G = G1(v) G1(l), h = -(v + eta l) / |v + eta l| on the viewer's side. Total internal reflection gives 0.
+fn transmission_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
+    let sum = normalize_or(frame.view_dir + p.eta * l, vec3f(0.0));
+    let h = select(-sum, sum, dot(sum, frame.normal) > 0.0);
+    let v_dot_h = dot(frame.view_dir, h);
+    let l_dot_h = dot(l, h);
+    let sine = cross(frame.normal, h);
+    let n_dot_l = -dot(frame.normal, l);
+    let root = v_dot_h + p.eta * l_dot_h;
+    let d = d_ggx(dot(frame.normal, h), dot(sine, sine), p.alpha);
+    // G / (n.v |n.l|) is four times V of Smith's separable form; times |n.l| it is finite at the horizon.
+    let a2 = p.alpha * p.alpha;
+    let front = max(n_dot_l, 0.0);
+    let view_lit = frame.n_dot_v + sqrt(a2 + (1.0 - a2) * frame.n_dot_v * frame.n_dot_v);
+    let light_lit = front + sqrt(a2 + (1.0 - a2) * front * front);
+    let g = 4.0 * front / max(view_lit * light_lit, 1e-36);
+    let f = f_dielectric(p.eta, v_dot_h);
+    let part = (1.0 - f) * d * g * v_dot_h * -l_dot_h / max(root * root, JACOBIAN_FLOOR);
+    return finite_or_zero(p.color * select(0.0, part, v_dot_h > 0.0 && l_dot_h < 0.0 && n_dot_l > 0.0));
+}
+
 // ---- brdf/metallic_roughness.wgsl
 
 /// Reflectance at normal incidence: dielectric_f0 (1 - metallic) + base_color metallic.
@@ -275,6 +440,39 @@ const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
 fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
     let gain = 1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0) - 1.0;
     return 1.0 + saturate(f0) * gain;
+}
+
+// ---- brdf/sheen.wgsl
+
+// Smallest alpha: the library's domain begins here, and the exponent 1 / alpha ends at 1e8.
+const CHARLIE_ALPHA_FLOOR: f32 = 1e-8;
+
+// Smallest sin^2 whose logarithm is taken.
+const SIN2_FLOOR: f32 = 1e-37;
+
+// Smallest denominator of V: keeps it finite at n.l = n.v = 0.
+const NEUBELT_FLOOR: f32 = 1e-36;
+
+/// Estevez and Kulla 2017, Production Friendly Microfacet Sheen BRDF:
+/// D = (2 + 1/alpha) sin(theta_h)^(1/alpha) / (2 pi). KHR_materials_sheen: alpha = perceptual_roughness^2.
+///
+/// Where sin^2 is near 1 its distance from 1 decides: there log2(1 - x), x = (n.h)^2, is x log2(1 - x) / ((1 - x) - 1), in
+/// which the rounding of 1 - x cancels.
+fn d_charlie(n_dot_h: f32, sin2_theta_h: f32, alpha: f32) -> f32 {
+    let exponent = 1.0 / max(alpha, CHARLIE_ALPHA_FLOOR);
+    let x = n_dot_h * n_dot_h;
+    let rest = max(1.0 - x, 0.25);
+    let is_1 = rest >= 1.0;
+    let slope = log2(rest) / select(rest - 1.0, -1.0, is_1);
+    let near_1 = -x * select(slope, 1.44269504088896340736, is_1);
+    let log2_sin2 = select(log2(max(sin2_theta_h, SIN2_FLOOR)), near_1, x < 0.5);
+    let power = exp2(0.5 * exponent * log2_sin2);
+    return select(0.0, (2.0 + exponent) * power * (0.5 * INV_PI), sin2_theta_h > 0.0);
+}
+
+/// Neubelt and Pettineo 2013, Crafting a Next-Gen Material Pipeline for The Order: 1886: V = 1 / (4 (n.l + n.v - n.l n.v)).
+fn v_neubelt(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
+    return 0.25 / max(n_dot_l + n_dot_v - n_dot_l * n_dot_v, NEUBELT_FLOOR);
 }
 
 // ---- entry/transform.wgsl

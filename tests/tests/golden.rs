@@ -62,6 +62,7 @@ const CASES: &[(&str, &[&str], Fold)] = &[
     ("tests/golden/metal.material.json", &["environment"], Fold::Export),
     ("tests/golden/cutout.material.json", &["sun"], Fold::Export),
     ("tests/golden/names.material.json", &["sun"], Fold::Export),
+    ("tests/golden/lobes.material.json", &["sun", "environment", "everything"], Fold::Export),
 ];
 
 /// One golden: its name and what codegen makes now.

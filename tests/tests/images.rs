@@ -151,3 +151,45 @@ fn pictures_match_mitsuba() {
     }
     assert!(failed.is_empty(), "{failed:#?}");
 }
+
+/// Most that a white surface under any of the layers may send out in white.
+const MOST_IN_WHITE: f32 = 1.03;
+
+/// No pile of layers gives more light than it gets.
+#[test]
+fn layers_do_not_gain() {
+    let Some(renderer) = renderer() else { return };
+    let white = halfvector_ibl::bake(&halfvector_ibl::white(), &BakeOptions { size: 64, ..BakeOptions::default() });
+    let (coat, rough_coat) = ("coat_weight=1", "coat_roughness=0.6");
+    let (sheen, transmission) = ("sheen_color=1,1,1", "transmission_weight=0.5");
+    let piles: &[&[&str]] = &[
+        &[coat],
+        &[coat, rough_coat],
+        &[coat, "coat_ior=2.4", "metallic=1"],
+        &[sheen, "sheen_roughness=0.1"],
+        &[sheen, "sheen_roughness=1", "perceptual_roughness=1"],
+        &[transmission, "perceptual_roughness=0.1"],
+        &["transmission_weight=1", "ior=2.4"],
+        &[coat, rough_coat, sheen, transmission, "metallic=0.5"],
+    ];
+    let path = root().join("examples/surface.material.json");
+    for pile in piles {
+        let mut document = halfvector_graph::file::load(&path).unwrap_or_else(|e| panic!("{e}"));
+        for setting in [&["base_color=1,1,1"], *pile].concat() {
+            let (name, value) = setting.split_once('=').expect("name=value");
+            let numbers: Vec<f32> = value.split(',').map(|x| x.parse().expect("a number")).collect();
+            set_parameter(&mut document, name, &numbers).unwrap_or_else(|e| panic!("{e}"));
+        }
+        let mesh = MeshSource::Builtin(BuiltinMesh::Sphere);
+        let mut scene =
+            Scene::from_material(document, &root().join("examples"), &mesh).unwrap_or_else(|e| panic!("{e}"));
+        scene.environment = EnvironmentSource::White;
+        // The ball without its background, which is white too.
+        let mut picture = draw(&renderer, &scene, &white);
+        picture.retain(|p| p[..3] != [1.0; 3]);
+        let most = picture.iter().flat_map(|p| &p[..3]).fold(0.0_f32, |most, x| most.max(*x));
+        println!("{most:.4} {pile:?}");
+        assert!(picture.iter().all(|p| p.iter().all(|x| x.is_finite())), "{pile:?}");
+        assert!((0.9..=MOST_IN_WHITE).contains(&most), "{most}: {pile:?}");
+    }
+}

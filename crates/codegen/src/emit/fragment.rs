@@ -32,7 +32,15 @@ pub(crate) fn fragment(parts: &FragmentParts<'_, '_>) -> Result<(Text, Uses), Co
     let mut writer = Writer::new(program, index, names, Entrance::Fragment, plan.height);
     let mut namer = Namer::new(index);
     writer.expressions(&program.fragment, &mut namer)?;
-    let mut shading = Shading { parts, writer, lines: Text::default(), first: true };
+    let mut shading = Shading {
+        parts,
+        writer,
+        lines: Text::default(),
+        first: true,
+        over_coat: "",
+        over_base: "",
+        coat_frame: "frame",
+    };
     shading.discard();
     if plan.is_lit() {
         shading.setup()?;
@@ -75,6 +83,23 @@ struct Shading<'s, 'p, 'a> {
     lines: Text,
     /// Whether nothing has been added to `radiance` yet.
     first: bool,
+    /// What the layers above leave to the coat, and to the base: factors in text.
+    over_coat: &'static str,
+    over_base: &'static str,
+    /// The frame of the coat.
+    coat_frame: &'static str,
+}
+
+/// One lookup of the prefiltered environment by reflection.
+struct Mirror<'m> {
+    /// What its lines are named after.
+    name: &'m str,
+    frame: &'m str,
+    roughness: &'m str,
+    /// The mirror direction in the world.
+    dir: &'m str,
+    /// Whether it fades below the horizon of the geometry.
+    horizon: bool,
 }
 
 impl Shading<'_, '_, '_> {
@@ -128,18 +153,12 @@ impl Shading<'_, '_, '_> {
         }
         let roughness = self.root("perceptual_roughness", "0.5");
         if plan.specular {
-            let (specular, alpha) =
-                (self.writer.library("Specular")?, self.writer.library("alpha_from_perceptual_roughness")?);
+            let (specular, alpha) = (self.writer.library("Specular")?, self.alpha(&roughness)?);
             let (f0, f90) = (self.root("f0", "vec3f(0.04)"), self.root("f90", "vec3f(1.0)"));
-            let roughness = if plan.lights.is_empty() {
-                roughness.clone()
-            } else {
-                format!("max({roughness}, {})", self.writer.library("PUNCTUAL_ROUGHNESS_FLOOR")?)
-            };
-            self.line(&format!("let specular = {specular}({f0}, {f90}, {alpha}({roughness}));"));
+            self.line(&format!("let specular = {specular}({f0}, {f90}, {alpha});"));
         }
         if plan.reads_dfg() {
-            let lookup = self.dfg("frame.n_dot_v")?;
+            let lookup = self.dfg("frame.n_dot_v", &roughness)?;
             self.line(&format!("let dfg = {lookup};"));
         }
         if plan.compensation {
@@ -153,6 +172,9 @@ impl Shading<'_, '_, '_> {
         }
         if plan.diffuse {
             let (diffuse, mut color) = (self.writer.library("Diffuse")?, self.root("diffuse_color", "vec3f(0.5)"));
+            if plan.transmission {
+                color = format!("{color} * (1.0 - {})", self.root("transmission_weight", "0.0"));
+            }
             if plan.coupling != Coupling::None {
                 let compensated = plan.compensation || plan.multiscatter;
                 let share =
@@ -162,12 +184,64 @@ impl Shading<'_, '_, '_> {
             }
             self.line(&format!("let diffuse = {diffuse}({color}, {roughness});"));
         }
+        if plan.transmission {
+            let lobe = self.writer.library("Transmission")?;
+            let (color, weight) = (self.root("diffuse_color", "vec3f(0.5)"), self.root("transmission_weight", "0.0"));
+            let (ior, alpha) = (self.root("ior", "1.5"), self.alpha(&roughness)?);
+            self.line(&format!("let transmission = {lobe}({color} * {weight}, {ior}, {alpha});"));
+        }
+        self.layers()
+    }
+
+    /// The layers over the base: their parameters, and what they leave to what lies below.
+    fn layers(&mut self) -> Result<(), CodegenError> {
+        let plan = self.parts.plan;
+        if plan.coat {
+            let fragment = &self.parts.program.fragment;
+            if fragment.root("coat_normal").is_some_and(|id| Some(id) != fragment.root("normal")) {
+                let (normal, view_dir) = (self.root("coat_normal", "world_normal"), self.writer.context("view_dir"));
+                let side =
+                    if plan.double_sided { format!("select(-{normal}, {normal}, front_facing)") } else { normal };
+                let frame = self.writer.library("frame_from_normal")?;
+                self.line(&format!("let coat_frame = {frame}({side}, {view_dir});"));
+                self.coat_frame = "coat_frame";
+            }
+            let (lobe, below) = (self.writer.library("Coat")?, self.writer.library("coat_base")?);
+            let (weight, color) = (self.root("coat_weight", "0.0"), self.root("coat_color", "vec3f(1.0)"));
+            let (f0, roughness) = (self.root("coat_f0", "0.04"), self.root("coat_roughness", "0.0"));
+            let (alpha, n_dot_v) = (self.alpha(&roughness)?, format!("{}.n_dot_v", self.coat_frame));
+            let dfg = self.dfg(&n_dot_v, &roughness)?;
+            self.line(&format!("let coat = {lobe}({weight}, {color}, {f0}, {alpha});"));
+            self.line(&format!("let coat_dfg = {dfg};"));
+            self.line(&format!("let under_coat = {below}(coat, {n_dot_v}, coat_dfg);"));
+            self.over_base = " * under_coat";
+        }
+        if plan.sheen {
+            let (lobe, below) = (self.writer.library("Sheen")?, self.writer.library("sheen_base")?);
+            let (color, roughness) = (self.root("sheen_color", "vec3f(0.0)"), self.root("sheen_roughness", "0.3"));
+            self.line(&format!("let sheen = {lobe}({color}, {roughness});"));
+            self.line(&format!("let under_sheen = {below}(sheen, frame.n_dot_v);"));
+            self.over_coat = " * under_sheen";
+            self.over_base = " * under_sheen";
+        }
+        if plan.coat && plan.sheen {
+            self.line("let under_layers = under_coat * under_sheen;");
+            self.over_base = " * under_layers";
+        }
         Ok(())
     }
 
-    /// The split sum's pair of a cosine.
-    fn dfg(&mut self, cosine: &str) -> Result<String, CodegenError> {
-        let roughness = self.root("perceptual_roughness", "0.5");
+    /// The width of a lobe: not below what a light without extent can be drawn with.
+    fn alpha(&mut self, roughness: &str) -> Result<String, CodegenError> {
+        let alpha = self.writer.library("alpha_from_perceptual_roughness")?;
+        if self.parts.plan.lights.is_empty() {
+            return Ok(format!("{alpha}({roughness})"));
+        }
+        Ok(format!("{alpha}(max({roughness}, {}))", self.writer.library("PUNCTUAL_ROUGHNESS_FLOOR")?))
+    }
+
+    /// The split sum's pair of a cosine at a roughness.
+    fn dfg(&mut self, cosine: &str, roughness: &str) -> Result<String, CodegenError> {
         if let Some(fit) = self.parts.needs.methods.get("dfg").function {
             return Ok(format!("{}({cosine}, {roughness})", self.writer.library(fit)?));
         }
@@ -228,7 +302,8 @@ impl Shading<'_, '_, '_> {
         if !self.parts.plan.reads_light_dfg() {
             return Ok(None);
         }
-        let lookup = self.dfg(&format!("dot(frame.normal, {light}.dir)"))?;
+        let roughness = self.root("perceptual_roughness", "0.5");
+        let lookup = self.dfg(&format!("dot(frame.normal, {light}.dir)"), &roughness)?;
         Ok(Some(format!("let {light}_dfg = {lookup};")))
     }
 
@@ -236,6 +311,7 @@ impl Shading<'_, '_, '_> {
     fn light_terms(&mut self, light: &str) -> Result<Vec<String>, CodegenError> {
         let plan = self.parts.plan;
         let mut terms = Vec::new();
+        let (base, coat_frame) = (self.over_base, self.coat_frame);
         if plan.diffuse {
             let lobe = self.writer.library("diffuse_eval")?;
             let mut share = String::new();
@@ -244,16 +320,28 @@ impl Shading<'_, '_, '_> {
                 let ((f0, f90), roughness) = (self.dielectric(), self.root("perceptual_roughness", "0.5"));
                 share = format!(" * {coupling}({f0}, {f90}, {light}_dfg, {roughness})");
             }
-            terms.push(format!("{lobe}(frame, {light}.dir, diffuse){share} * {light}.illuminance"));
+            terms.push(format!("{lobe}(frame, {light}.dir, diffuse){share}{base} * {light}.illuminance"));
         }
         if plan.specular {
             let lobe = self.writer.library("specular_eval")?;
             let compensated = if plan.compensation { " * compensation" } else { "" };
-            terms.push(format!("{lobe}(frame, {light}.dir, specular){compensated} * {light}.illuminance"));
+            terms.push(format!("{lobe}(frame, {light}.dir, specular){compensated}{base} * {light}.illuminance"));
         }
         if plan.multiscatter {
             let lobe = self.writer.library("multiscatter_eval")?;
-            terms.push(format!("{lobe}(frame, {light}.dir, multiscatter, {light}_dfg) * {light}.illuminance"));
+            terms.push(format!("{lobe}(frame, {light}.dir, multiscatter, {light}_dfg){base} * {light}.illuminance"));
+        }
+        if plan.transmission {
+            let lobe = self.writer.library("transmission_eval")?;
+            terms.push(format!("{lobe}(frame, {light}.dir, transmission){base} * {light}.illuminance"));
+        }
+        if plan.coat {
+            let (lobe, above) = (self.writer.library("coat_eval")?, self.over_coat);
+            terms.push(format!("{lobe}({coat_frame}, {light}.dir, coat){above} * {light}.illuminance"));
+        }
+        if plan.sheen {
+            let lobe = self.writer.library("sheen_eval")?;
+            terms.push(format!("{lobe}(frame, {light}.dir, sheen) * {light}.illuminance"));
         }
         Ok(terms)
     }
@@ -270,7 +358,7 @@ impl Shading<'_, '_, '_> {
         let lod = self.writer.library(methods.get("level_map").function.unwrap_or("lod_geometric"))?;
         let mixed =
             if methods.is("level_map", "hermite") { "environment_sample_hermite" } else { "environment_sample" };
-        let mirror = plan.specular || (plan.diffuse && last_level);
+        let mirror = plan.specular || (plan.reads_irradiance() && last_level);
         if mirror {
             let mut mirror = "reflect(-frame.view_dir, frame.normal)".to_owned();
             if plan.horizon && rotated {
@@ -281,7 +369,8 @@ impl Shading<'_, '_, '_> {
             self.line(&format!("let reflection_dir = {direction};"));
         }
         let occlusion = if plan.occlusion { format!(" * {}", self.root("occlusion", "1.0")) } else { String::new() };
-        if plan.diffuse || plan.multiscatter {
+        let base = self.over_base;
+        if plan.reads_irradiance() {
             let irradiance = match methods.get("irradiance").name {
                 "sh2" => {
                     let direction = self.turned("frame.normal", rotated)?;
@@ -305,11 +394,11 @@ impl Shading<'_, '_, '_> {
         }
         if plan.diffuse {
             let lobe = self.writer.library("diffuse_environment")?;
-            self.add(&format!("{lobe}(diffuse, irradiance){occlusion}"));
+            self.add(&format!("{lobe}(diffuse, irradiance){occlusion}{base}"));
         }
         if plan.multiscatter {
             let lobe = self.writer.library("multiscatter_environment")?;
-            self.add(&format!("{lobe}(multiscatter, irradiance){occlusion}"));
+            self.add(&format!("{lobe}(multiscatter, irradiance){occlusion}{base}"));
         }
         if plan.specular {
             let levels = self.writer.view(ViewMember::EnvironmentLevels);
@@ -319,37 +408,74 @@ impl Shading<'_, '_, '_> {
             let reflection = encoded(format!("{sample}({cube}, reflection_dir, reflection_lod)"));
             self.line(&format!("let reflection = {reflection};"));
             let compensated = if plan.compensation { " * compensation" } else { "" };
-            let hidden = self.hidden(&roughness, if rotated { "mirror_dir" } else { "reflection_dir" })?;
+            let dir = if rotated { "mirror_dir" } else { "reflection_dir" };
+            let mirror = Mirror { name: "", frame: "frame", roughness: &roughness, dir, horizon: plan.horizon };
+            let hidden = self.hidden(&mirror)?;
             let lobe = self.writer.library("specular_environment")?;
-            self.add(&format!("{lobe}(specular, reflection, dfg){compensated}{hidden}"));
+            self.add(&format!("{lobe}(specular, reflection, dfg){compensated}{hidden}{base}"));
+        }
+        if plan.transmission {
+            let (lobe, bend) =
+                (self.writer.library("transmission_environment")?, self.writer.library("transmission_direction")?);
+            let direction = self.turned(&format!("{bend}(frame, transmission.eta)"), rotated)?;
+            let levels = self.writer.view(ViewMember::EnvironmentLevels);
+            let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
+            let sample = self.writer.library(mixed)?;
+            let transmitted = encoded(format!("{sample}({cube}, {direction}, {lod}({roughness}, {levels}))"));
+            self.line(&format!("let transmitted = {transmitted};"));
+            let f0 = self.root("dielectric_f0", "0.0");
+            self.add(&format!("{lobe}(transmission, {f0}, transmitted, dfg){base}"));
+        }
+        if plan.coat {
+            let (frame, roughness) = (self.coat_frame, self.root("coat_roughness", "0.0"));
+            self.line(&format!("let coat_mirror_dir = reflect(-{frame}.view_dir, {frame}.normal);"));
+            let direction = self.turned("coat_mirror_dir", rotated)?;
+            let levels = self.writer.view(ViewMember::EnvironmentLevels);
+            let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
+            let sample = self.writer.library(mixed)?;
+            let reflection = encoded(format!("{sample}({cube}, {direction}, {lod}({roughness}, {levels}))"));
+            self.line(&format!("let coat_reflection = {reflection};"));
+            let stage = &self.parts.program.fragment;
+            let mapped = stage.root("coat_normal").is_some_and(|id| !stage.arena.is_context(id, "world_normal"));
+            let horizon = mapped && !self.parts.program.derived_normal;
+            let mirror = Mirror { name: "coat_", frame, roughness: &roughness, dir: "coat_mirror_dir", horizon };
+            let (hidden, above) = (self.hidden(&mirror)?, self.over_coat);
+            let lobe = self.writer.library("coat_environment")?;
+            self.add(&format!("{lobe}(coat, coat_reflection, coat_dfg){hidden}{above}"));
+        }
+        if plan.sheen {
+            let lobe = self.writer.library("sheen_environment")?;
+            self.add(&format!("{lobe}(sheen, frame.n_dot_v, irradiance){occlusion}"));
         }
         Ok(())
     }
 
-    /// What the reflection is multiplied by where the surface hides it: under occlusion, and below its own horizon.
-    fn hidden(&mut self, roughness: &str, mirror_dir: &str) -> Result<String, CodegenError> {
+    /// What a reflection is multiplied by where the surface hides it: under occlusion, and below its own horizon.
+    fn hidden(&mut self, mirror: &Mirror<'_>) -> Result<String, CodegenError> {
         let plan = self.parts.plan;
+        let Mirror { name, frame, roughness, dir, horizon } = *mirror;
         let mut factors = String::new();
         if plan.occlusion {
             let occlusion = self.root("occlusion", "1.0");
             factors += &match self.parts.needs.methods.get("specular_occlusion").function {
                 Some(function) => {
-                    format!(" * {}(frame.n_dot_v, {occlusion}, {roughness})", self.writer.library(function)?)
+                    format!(" * {}({frame}.n_dot_v, {occlusion}, {roughness})", self.writer.library(function)?)
                 }
                 None => format!(" * {occlusion}"),
             };
         }
-        if let Some(function) = self.parts.needs.methods.get("horizon").function.filter(|_| plan.horizon) {
+        if let Some(function) = self.parts.needs.methods.get("horizon").function.filter(|_| horizon) {
             let function = self.writer.library(function)?;
             let mut geometric = self.writer.context("world_normal");
             if plan.double_sided {
-                self.line(&format!("let geometric_normal = select(-{geometric}, {geometric}, front_facing);"));
-                geometric = "geometric_normal".into();
+                let side = format!("{name}geometric_normal");
+                self.line(&format!("let {side} = select(-{geometric}, {geometric}, front_facing);"));
+                geometric = side;
             }
             self.line(&format!(
-                "let horizon = {function}(dot({mirror_dir}, {geometric}), dot(frame.normal, {geometric}), frame.n_dot_v, {roughness});"
+                "let {name}horizon = {function}(dot({dir}, {geometric}), dot({frame}.normal, {geometric}), {frame}.n_dot_v, {roughness});"
             ));
-            factors += " * horizon";
+            factors += &format!(" * {name}horizon");
         }
         Ok(factors)
     }
@@ -368,7 +494,7 @@ impl Shading<'_, '_, '_> {
         let plan = self.parts.plan;
         if plan.emission {
             let emission = self.root("emission", "vec3f(0.0)");
-            self.add(&emission);
+            self.add(&format!("{emission}{}", self.over_base));
         }
         if self.first {
             self.add("vec3f(0.0)");

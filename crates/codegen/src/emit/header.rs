@@ -67,15 +67,15 @@ fn serves(plan: &Plan, needs: &Needs) -> String {
 fn methods(plan: &Plan, needs: &Needs) -> String {
     let environment = plan.environment.is_some();
     let used = |term: &str| match term {
-        "d" | "v" | "fresnel" => plan.specular && !plan.lights.is_empty(),
+        "d" | "v" | "fresnel" => (plan.specular || plan.coat) && !plan.lights.is_empty(),
         "diffuse" => plan.diffuse && !plan.lights.is_empty(),
         "compensation" => plan.compensation || plan.multiscatter,
         "coupling" => plan.diffuse && plan.specular,
-        "dfg" => plan.reads_dfg(),
-        "level_map" | "prefilter" => plan.specular && environment,
-        "specular_occlusion" => plan.specular && plan.occlusion,
+        "dfg" => plan.reads_dfg() || plan.coat,
+        "level_map" | "prefilter" => (plan.specular || plan.coat || plan.transmission) && environment,
+        "specular_occlusion" => (plan.specular || plan.coat) && plan.occlusion,
         "horizon" => plan.horizon,
-        "irradiance" => (plan.diffuse || plan.multiscatter) && environment,
+        "irradiance" => plan.reads_irradiance(),
         "encode" => environment && needs.methods.is("encode", "report"),
         "height_normals" => plan.height,
         _ => false,

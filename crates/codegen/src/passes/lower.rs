@@ -12,7 +12,7 @@ use halfvector_graph::value::{SocketType, Type, Value};
 use crate::ir::{Arena, Entry, Expr, Id, Input, NodeInfo, Program, Stage, Table, Ty};
 use crate::link::Index;
 use crate::passes::fold;
-use crate::passes::specialise::SOCKETS;
+use crate::passes::specialise::{NORMALS, SOCKETS};
 use crate::passes::types::Types;
 use crate::{CodegenError, Fold};
 
@@ -252,7 +252,7 @@ pub(crate) fn lower<'a>(
     let mut fragment = Stage::default();
     let derived_normal = varies && !methods.is("height_normals", "report");
     let mut lowering = Lowering::new(document, types, methods, fold, StageKind::Fragment);
-    for socket in SOCKETS.into_iter().filter(|s| *s != "normal") {
+    for socket in SOCKETS.into_iter().filter(|s| !NORMALS.contains(s)) {
         if let Some(id) = lowering.input(&mut fragment.arena, &mut table, types.surface, socket)? {
             fragment.roots.insert(socket, id);
         }
@@ -261,9 +261,11 @@ pub(crate) fn lower<'a>(
         let normal = normal_from_height(&mut fragment.arena, height);
         lowering.substitute("world_normal", normal);
     }
-    if let Some(id) = lowering.input(&mut fragment.arena, &mut table, types.surface, "normal")? {
-        let unit = unit_normal(&mut fragment.arena, types, id);
-        fragment.roots.insert("normal", unit);
+    for socket in NORMALS {
+        if let Some(id) = lowering.input(&mut fragment.arena, &mut table, types.surface, socket)? {
+            let unit = unit_normal(&mut fragment.arena, types, id);
+            fragment.roots.insert(socket, unit);
+        }
     }
     let Table { inputs, images, .. } = table;
     Ok(Program { nodes: types.nodes.clone(), inputs, images, fragment, vertex, derived_normal })

@@ -36,6 +36,11 @@ pub(crate) struct Plan {
     pub(crate) multiscatter: bool,
     /// What the specular lobe leaves to the diffuse one.
     pub(crate) coupling: Coupling,
+    /// Layers over the base, the sheen outermost.
+    pub(crate) coat: bool,
+    pub(crate) sheen: bool,
+    /// Light that passes through the dielectric base.
+    pub(crate) transmission: bool,
     pub(crate) emission: bool,
     /// Occlusion of the environment.
     pub(crate) occlusion: bool,
@@ -67,7 +72,7 @@ impl Plan {
     /// Whether shading reads the split sum's pair towards the viewer.
     pub(crate) fn reads_dfg(&self) -> bool {
         let scaled = self.compensation || self.multiscatter || self.coupling != Coupling::None;
-        self.specular && (scaled || self.environment.is_some())
+        self.transmission || (self.specular && (scaled || self.environment.is_some()))
     }
 
     /// Whether shading reads the split sum's pair towards each light.
@@ -76,7 +81,17 @@ impl Plan {
     }
 
     pub(crate) fn is_lit(&self) -> bool {
-        self.diffuse || self.specular
+        self.has_base() || self.coat || self.sheen
+    }
+
+    /// Whether a lobe of the base is left.
+    pub(crate) fn has_base(&self) -> bool {
+        self.diffuse || self.specular || self.transmission
+    }
+
+    /// Whether the irradiance of the environment is read.
+    pub(crate) fn reads_irradiance(&self) -> bool {
+        self.environment.is_some() && (self.diffuse || self.multiscatter || self.sheen)
     }
 
     pub(crate) fn drop_it(&mut self, what: &str, why: impl Into<String>) {
@@ -135,8 +150,28 @@ impl Known<'_, '_> {
 }
 
 /// The sockets that shading reads, of a surface that has all of them.
-pub(crate) const SOCKETS: [&str; 9] =
-    ["base_color", "metallic", "perceptual_roughness", "ior", "specular", "normal", "occlusion", "emission", "opacity"];
+pub(crate) const SOCKETS: [&str; 17] = [
+    "base_color",
+    "metallic",
+    "perceptual_roughness",
+    "ior",
+    "specular",
+    "normal",
+    "occlusion",
+    "emission",
+    "opacity",
+    "coat_weight",
+    "coat_color",
+    "coat_roughness",
+    "coat_ior",
+    "coat_normal",
+    "sheen_color",
+    "sheen_roughness",
+    "transmission_weight",
+];
+
+/// Those of them that are normals: a displaced surface changes what they are by default.
+pub(crate) const NORMALS: [&str; 2] = ["normal", "coat_normal"];
 
 /// Decides what is emitted.
 pub(crate) fn specialise(
@@ -151,7 +186,7 @@ pub(crate) fn specialise(
     let weightless = Known { program, fold }.surface("specular", 0.0);
     let full = Known { program, fold }.surface("specular", 1.0);
     let stage = &mut program.fragment;
-    if plan.diffuse {
+    if plan.diffuse || plan.transmission {
         let color = diffuse_color(stage, metal);
         stage.roots.insert("diffuse_color", color);
     }
@@ -159,10 +194,16 @@ pub(crate) fn specialise(
         let Reflectances { f0, f90, dielectric } = reflectances(stage, metal, weightless, full);
         stage.roots.insert("f0", f0);
         stage.roots.insert("f90", f90);
-        if let (Some((f0, f90)), true) = (dielectric, plan.coupling != Coupling::None) {
+        if let (Some((f0, f90)), true) = (dielectric, plan.coupling != Coupling::None || plan.transmission) {
             stage.roots.insert("dielectric_f0", f0);
             stage.roots.insert("dielectric_f90", f90);
         }
+    }
+    if plan.coat {
+        let ior = input(stage, "coat_ior", Type::F32, 1.5);
+        let call = Expr::Call { function: "f0_from_ior", generic: None, arguments: vec![ior] };
+        let f0 = stage.arena.own(call, Type::F32, "coat_f0");
+        stage.roots.insert("coat_f0", f0);
     }
     keep_wanted(stage, &plan);
     if !plan.height {
@@ -206,9 +247,16 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
         plan.drop_it("environment light", "the scene has no environment: 2 cubes and their lookups saved");
     }
 
-    plan.diffuse = lit && metal != Metal::Whole;
+    plan.transmission = lit && metal != Metal::Whole && !absent(&known, "transmission_weight");
+    plan.diffuse = lit && metal != Metal::Whole && !(plan.transmission && known.surface("transmission_weight", 1.0));
     if lit && !plan.diffuse {
-        plan.drop_it("diffuse lobe", "metallic is 1: a metal reflects nothing diffusely");
+        plan.drop_it(
+            "diffuse lobe",
+            match metal {
+                Metal::Whole => "metallic is 1: a metal reflects nothing diffusely",
+                _ => "transmission_weight is 1: what enters the surface leaves it behind",
+            },
+        );
     }
     let no_specular = metal == Metal::None && known.surface("specular", 0.0);
     plan.specular = lit && !no_specular;
@@ -234,6 +282,9 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     if !plan.emission {
         plan.drop_it("emission", "it is 0");
     }
+    // Layers dim what the surface sends out itself, also where nothing shines on them.
+    plan.coat = (lit || plan.emission) && !absent(&known, "coat_weight");
+    plan.sheen = (lit || plan.emission) && !absent(&known, "sheen_color");
     plan.occlusion = plan.environment.is_some() && plan.is_lit() && !known.surface("occlusion", 1.0);
     if plan.environment.is_some() && !plan.occlusion {
         plan.drop_it("occlusion", "it is 1");
@@ -242,8 +293,14 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     decide_opacity(&mut plan, &known, document);
     decide_height(&mut plan, &known, needs, lit);
     let mirror = plan.environment.is_some() && (plan.specular || needs.methods.is("irradiance", "last_level"));
-    plan.looks_at_view = plan.specular || mirror || !needs.methods.is("diffuse", "lambert");
+    let layered = plan.coat || plan.sheen || plan.transmission;
+    plan.looks_at_view = plan.specular || mirror || layered || !needs.methods.is("diffuse", "lambert");
     plan
+}
+
+/// Whether a lobe is off: its socket is 0, or the surface node has no such socket.
+fn absent(known: &Known<'_, '_>, socket: &str) -> bool {
+    known.program.fragment.root(socket).is_none() || known.surface(socket, 0.0)
 }
 
 fn compensates(plan: &mut Plan, needs: &Needs, constants: Constants) -> bool {
@@ -385,8 +442,12 @@ fn input(stage: &mut Stage<'_>, socket: &'static str, ty: Type, otherwise: f32) 
 /// Leaves as roots only what the shading of this plan reads.
 fn keep_wanted(stage: &mut Stage<'_>, plan: &Plan) {
     stage.roots.retain(|name, _| match *name {
-        "diffuse_color" | "f0" | "f90" | "dielectric_f0" | "dielectric_f90" => true,
-        "normal" | "perceptual_roughness" => plan.is_lit(),
+        "diffuse_color" | "f0" | "f90" | "dielectric_f0" | "dielectric_f90" | "coat_f0" => true,
+        "normal" => plan.is_lit(),
+        "perceptual_roughness" => plan.has_base(),
+        "coat_weight" | "coat_color" | "coat_roughness" | "coat_normal" => plan.coat,
+        "sheen_color" | "sheen_roughness" => plan.sheen,
+        "transmission_weight" | "ior" => plan.transmission,
         "occlusion" => plan.occlusion,
         "emission" => plan.emission,
         "opacity" => plan.alpha_mode != AlphaMode::Opaque,

@@ -100,9 +100,17 @@ fn live_numbers_change_no_text() {
                 Value::Image(_) => continue,
             };
             // A neutral weight is the one number that specialises, see `lobe_weights_specialise_live`.
-            if id == "surface"
-                && ["specular", "occlusion", "emission", "opacity", "height"].contains(&input.name.as_str())
-            {
+            const WEIGHTS: [&str; 8] = [
+                "specular",
+                "occlusion",
+                "emission",
+                "opacity",
+                "height",
+                "coat_weight",
+                "sheen_color",
+                "transmission_weight",
+            ];
+            if id == "surface" && WEIGHTS.contains(&input.name.as_str()) {
                 continue;
             }
             let mut other = document.clone();
@@ -125,6 +133,9 @@ fn lobe_weights_specialise_live() {
     assert!(!live(r#""specular": 0"#).contains("Specular("));
     assert!(!live("").contains("surface_emission"));
     assert!(!live("").contains("f0_from_metallic"));
+    let coated = live(r#""coat_weight": 0.5"#);
+    assert!(coated.contains("parameters.surface_coat_weight"));
+    assert_eq!(coated, live(r#""coat_weight": 0.9, "coat_roughness": 0.3"#));
 }
 
 /// Under export an exposed parameter never specialises, whatever its default.

@@ -6,6 +6,59 @@ use super::{environment, exported, made, maps, material, nothing, sun};
 use crate::Fold;
 use crate::passes::specialise::{COMPENSATION_BOUND_PERCENT, COMPENSATION_MIN_F0};
 
+const ALL_LOBES: &str = r#""metallic": 0.2, "coat_weight": 0.8, "coat_roughness": 0.1, "coat_color": [1, 0.9, 0.8],
+    "sheen_color": [0.2, 0.2, 0.3], "transmission_weight": 0.4"#;
+
+/// A lobe whose weight is 0 leaves no trace, whatever its other numbers are; one that is there is one call of each kind.
+#[test]
+fn a_lobe_of_weight_zero_is_not_there() {
+    let off = r#""coat_weight": 0, "coat_roughness": 0.7, "coat_ior": 2, "sheen_roughness": 0.9"#;
+    for needs in [nothing(), sun(), environment()] {
+        for fold in [Fold::Live, Fold::Export] {
+            let plain = made(&material("", "", ""), &needs, fold);
+            assert_eq!(plain.wgsl, made(&material(off, "", ""), &needs, fold).wgsl);
+            for word in ["coat", "sheen", "transmission"] {
+                assert!(!plain.wgsl.contains(word), "{word}");
+            }
+        }
+    }
+    for (values, lobe) in [
+        (r#""coat_weight": 0.5"#, "coat"),
+        (r#""sheen_color": [0.5, 0, 0]"#, "sheen"),
+        (r#""transmission_weight": 0.5"#, "transmission"),
+    ] {
+        let lit = exported(&material(values, "", ""), &sun()).wgsl;
+        assert_eq!(lit.matches(&format!("{lobe}_eval(")).count(), 2, "a call and the function itself: {lit}");
+        assert!(!lit.contains(&format!("{lobe}_environment")), "{lit}");
+        let surrounded = exported(&material(values, "", ""), &environment()).wgsl;
+        assert_eq!(surrounded.matches(&format!("{lobe}_environment(")).count(), 2, "{surrounded}");
+        assert!(!surrounded.contains(&format!("{lobe}_eval")), "{surrounded}");
+        for other in ["coat", "sheen", "transmission"].into_iter().filter(|other| *other != lobe) {
+            assert!(!lit.contains(&format!("{other}_")) && !surrounded.contains(&format!("{other}_")), "{other}");
+        }
+    }
+}
+
+/// Sheen lies over the coat, the coat over the base and over what the base sends out.
+#[test]
+fn layers_dim_what_lies_below() {
+    let values = format!(r#"{ALL_LOBES}, "emission": [1, 2, 3]"#);
+    let text = exported(&material(&values, "", ""), &sun()).wgsl;
+    for line in
+        text.lines().filter(|line| line.trim_start().starts_with("radiance +=") || line.contains("var radiance"))
+    {
+        let factor = match line {
+            line if line.contains("sheen_eval") => None,
+            line if line.contains("coat_eval") => Some(" * under_sheen"),
+            _ => Some(" * under_layers"),
+        };
+        assert_eq!(factor.is_some(), line.contains("* under_"), "{line}");
+        assert!(factor.is_none_or(|factor| line.contains(factor)), "{line}");
+    }
+    let unlit = exported(&material(r#""coat_weight": 1, "emission": [1, 2, 3]"#, "", ""), &nothing()).wgsl;
+    assert!(unlit.contains("vec3f(1.0, 2.0, 3.0) * under_coat"), "{unlit}");
+}
+
 fn valid(text: &str) -> bool {
     let Ok(module) = naga::front::wgsl::parse_str(text) else { return false };
     crate::validate::validate_module(&module).is_ok()
@@ -22,9 +75,15 @@ fn removing_any_declaration_breaks_it() {
         ..nothing()
     };
     let mut tried = 0;
-    for document in
-        [material("", "", ""), maps(), material(r#""metallic": 1"#, "", ""), material(r#""specular": 0"#, "", "")]
-    {
+    for document in [
+        material("", "", ""),
+        maps(),
+        material(r#""metallic": 1"#, "", ""),
+        material(r#""specular": 0"#, "", ""),
+        material(ALL_LOBES, "", ""),
+        material(r#""coat_weight": 1, "emission": [1, 1, 1]"#, "", ""),
+        material(r#""transmission_weight": 1"#, "", ""),
+    ] {
         for needs in [nothing(), sun(), environment(), everything.clone()] {
             for fold in [Fold::Live, Fold::Export] {
                 let shader = made(&document, &needs, fold);
