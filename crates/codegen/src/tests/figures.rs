@@ -2,6 +2,8 @@
 
 use std::process::Command;
 
+use halfvector_graph::value::Value;
+
 use super::{environment, exported, maps, material, sun};
 use crate::Shader;
 use crate::target::{export, target};
@@ -62,4 +64,16 @@ fn plain_dielectric_under_one_directional_light() {
 #[test]
 fn four_maps_in_an_environment() {
     check("four maps, environment", &exported(&maps(), &environment()), 340);
+}
+
+#[test]
+fn all_lobes_with_four_maps_in_an_environment() {
+    let mut document = maps();
+    let values = &mut document.nodes.get_mut("surface").expect("the surface").values;
+    values.insert("coat_weight".into(), Value::Number(0.8));
+    values.insert("coat_roughness".into(), Value::Number(0.1));
+    values.insert("coat_color".into(), Value::Vec3([1.0, 0.9, 0.8]));
+    values.insert("sheen_color".into(), Value::Vec3([0.2, 0.2, 0.3]));
+    values.insert("transmission_weight".into(), Value::Number(0.4));
+    check("all lobes, four maps, environment", &exported(&document, &environment()), 800);
 }
