@@ -5,6 +5,7 @@ pub mod energy;
 pub mod ibl;
 pub mod maps;
 pub mod mips;
+mod split_sum;
 
 use crate::{Effort, Row};
 

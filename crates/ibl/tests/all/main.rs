@@ -6,6 +6,7 @@ mod bake;
 mod exr;
 mod files;
 mod hard;
+mod irradiance;
 mod occlusion;
 mod peers;
 mod sampling;
@@ -35,6 +36,16 @@ fn data_table(path: &str) -> Option<Vec<Vec<String>>> {
 /// Relative error of a colour, as the issue measures it: against the truth, at least a thousandth of the mean radiance.
 fn relative_errors(value: [f32; 3], truth: [f64; 3], mean: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|c| (f64::from(value[c]) - truth[c]).abs() / truth[c].max(1e-3 * mean[c]))
+}
+
+/// Whether everything is to be measured that a test can, with `HALFVECTOR_FULL=1`, rather than what shows a mistake.
+fn full() -> bool {
+    std::env::var_os("HALFVECTOR_FULL").is_some_and(|value| value == "1")
+}
+
+/// As many of `all` points as a test takes: a quarter of them, or all with `HALFVECTOR_FULL=1`.
+fn share(all: usize) -> usize {
+    if full() { all } else { all.div_ceil(4) }
 }
 
 /// Root of the mean square.

@@ -3,7 +3,7 @@
 //!
 //! The tables stand in another frame: exchange x and z of every direction.
 
-use crate::{ENVIRONMENTS, data_file, data_table, environment, mirrored, numbers, relative_errors, rms};
+use crate::{ENVIRONMENTS, data_file, data_table, environment, mirrored, numbers, relative_errors, rms, share};
 use halfvector_ibl::environment::{dfg_from_table, environment_sample, irradiance_sh2, lod_linear, rotate_about_y};
 use halfvector_ibl::{
     BakeOptions, Equirect, LevelMap, LoadedEnvironment, Quadrature, Quality, Source, Visibility, bake, dfg_table_with,
@@ -83,7 +83,7 @@ fn preview() {
                     relative_errors(cube.texels[texel], exact, truth.mean())
                 };
                 // Any texels, and the six brightest.
-                errors.extend((0..40).flat_map(|k| error(k * 7919 % (6 * n * n))));
+                errors.extend((0..share(40)).flat_map(|k| error(k * 7919 % (6 * n * n))));
                 let mut order: Vec<usize> = (0..6 * n * n).collect();
                 order.sort_by(|&a, &b| cube.texels[b][1].total_cmp(&cube.texels[a][1]));
                 brightest = order[..6].iter().flat_map(|&texel| error(texel)).fold(brightest, f64::max);

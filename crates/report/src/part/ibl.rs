@@ -1,6 +1,7 @@
-//! Light of environments: levels, what is seen between them, diffuse light; on the two environments of our own, against
+//! Light of environments: levels, what is seen between them, diffuse light, the split sum's own error; on the two environments of our own, against
 //! sums over every texel.
 
+use super::split_sum;
 use crate::error::Errors;
 use crate::timing::interleaved;
 use crate::{Effort, Row};
@@ -21,12 +22,13 @@ pub fn rows(effort: Effort) -> Vec<Row> {
         rows.extend(levels(effort, name, &environment, &truth));
         rows.extend(seen(effort, name, &environment, &truth));
         rows.extend(diffuse(effort, name, &environment, &truth));
+        rows.extend(split_sum::rows(effort, name, &environment));
     }
     rows
 }
 
 /// Relative error of a colour, each channel against at least a thousandth of the mean radiance.
-fn add(errors: &mut Errors, value: [f32; 3], truth: [f64; 3], mean: [f64; 3], at: impl Fn() -> String) {
+pub(super) fn add(errors: &mut Errors, value: [f32; 3], truth: [f64; 3], mean: [f64; 3], at: impl Fn() -> String) {
     for c in 0..3 {
         errors.add((f64::from(value[c]) - truth[c]) / truth[c].max(1e-3 * mean[c]), &at);
     }
@@ -93,13 +95,13 @@ fn texel_centre(size: usize, k: usize) -> [f64; 3] {
     unit(direction_from_face(k % 6, place(0.754_877_666), place(0.569_840_291)))
 }
 
-fn unit(v: [f64; 3]) -> [f64; 3] {
+pub(super) fn unit(v: [f64; 3]) -> [f64; 3] {
     let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
     v.map(|x| x / length)
 }
 
 /// The k-th direction of an even spread over the sphere.
-fn direction(k: usize) -> [f64; 3] {
+pub(super) fn direction(k: usize) -> [f64; 3] {
     let (y, phi) = (2.0 * (0.5 + 0.819_172_513 * k as f64).fract() - 1.0, 0.671_043_607 * k as f64);
     let (sin, cos) = (phi.fract() * std::f64::consts::TAU).sin_cos();
     let across = (1.0 - y * y).sqrt();

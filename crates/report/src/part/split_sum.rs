@@ -1,0 +1,121 @@
+//! The split sum's model error: what is left when prefiltered light and the table of albedos are exact. It is no error of a
+//! prefilter, and no filter can mend it.
+
+use super::ibl::{add, direction, unit};
+use crate::error::Errors;
+use crate::{Effort, Row};
+use halfvector_brdf::ggx::{d_ggx, v_smith_ggx_correlated};
+use halfvector_ibl::{
+    Equirect, LoadedEnvironment, Quadrature, Source, Visibility, dfg, direction_from_equirect,
+    equirect_texel_solid_angle,
+};
+
+const N_DOT_V: [f64; 4] = [0.15, 0.3, 0.6, 1.0];
+const ROUGHNESS: [f64; 4] = [0.2, 0.4, 0.7, 1.0];
+
+/// Reflectance at normal incidence: a dielectric, gold.
+const F0: [[f64; 3]; 2] = [[0.04; 3], [1.0, 0.71, 0.29]];
+
+/// Rows of the map that stands for the environment, and pieces along an edge of each of its texels.
+const ROWS: usize = 128;
+const PIECES: usize = 2;
+
+/// One row for each n.v and roughness, over directions of the normal and both reflectances: prefiltered light times
+/// (F0 a + b), both without numerical error, against the integral of light times the lobe. Nothing is timed.
+pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment) -> Vec<Row> {
+    let Source::Equirect(map) = &environment.source else { return Vec::new() };
+    // Both sides see this map: how coarse it is changes what is lit, not what the model loses.
+    let map = map.area_resampled(2 * ROWS, ROWS);
+    let (truth, cells) = (Quadrature::new(&map), cells(&map));
+    let mut rows = Vec::new();
+    for n_dot_v in N_DOT_V {
+        for roughness in ROUGHNESS {
+            let domain = format!(
+                "{name}: the split sum's model error, n.v {n_dot_v}, roughness {roughness}; exact levels times exact \
+                 (F0 a + b), relative to the integral of light times the lobe"
+            );
+            let [a, b] = dfg(n_dot_v, roughness, Visibility::Correlated);
+            let mut errors = Errors::default();
+            for k in 0..effort.pick(6, 60) {
+                let n = direction(k);
+                let v = view(n, n_dot_v);
+                let reflected = std::array::from_fn(|i| 2.0 * n_dot_v * n[i] - v[i]);
+                let [light_a, light_b] = reflection(&cells, n, v, roughness * roughness);
+                let prefiltered = truth.prefiltered(unit(reflected), roughness);
+                for f0 in F0 {
+                    let split = std::array::from_fn(|c| (prefiltered[c] * (f0[c] * a + b)) as f32);
+                    let exact = std::array::from_fn(|c| f0[c] * light_a[c] + light_b[c]);
+                    let mean = std::array::from_fn(|c| truth.mean()[c] * (f0[c] * a + b));
+                    add(&mut errors, split, exact, mean, || format!("normal {n:.3?}, F0 {f0:?}"));
+                }
+            }
+            let mut row = Row::new("split_sum", "model", &domain);
+            errors.fill(&mut row);
+            rows.push(row);
+        }
+    }
+    rows
+}
+
+/// The pieces of a map's texels: direction x, y, z, and radiance times solid angle.
+fn cells(map: &Equirect) -> Vec<[f64; 6]> {
+    let (width, height) = (PIECES * map.width, PIECES * map.height);
+    let cell = |k: usize| {
+        let (row, column) = (k / width, k % width);
+        let [x, y, z] =
+            direction_from_equirect((column as f64 + 0.5) / width as f64, (row as f64 + 0.5) / height as f64);
+        let area = equirect_texel_solid_angle(width, height, row);
+        let [r, g, b] = map.pixels[row / PIECES * map.width + column / PIECES].map(|x| f64::from(x) * area);
+        [x, y, z, r, g, b]
+    };
+    (0..width * height).map(cell).collect()
+}
+
+/// A unit direction at this cosine to the unit normal.
+fn view(n: [f64; 3], n_dot_v: f64) -> [f64; 3] {
+    let aside = if n[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
+    let along = n[0] * aside[0] + n[1] * aside[1] + n[2] * aside[2];
+    let tangent = unit(std::array::from_fn(|i| aside[i] - along * n[i]));
+    std::array::from_fn(|i| n_dot_v * n[i] + (1.0 - n_dot_v * n_dot_v).sqrt() * tangent[i])
+}
+
+/// The sums of light times D V n.l (1 - (1 - l.h)^5) and times D V n.l (1 - l.h)^5: the reflection is F0 times the first
+/// plus the second (Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering").
+fn reflection(cells: &[[f64; 6]], n: [f64; 3], v: [f64; 3], alpha: f64) -> [[f64; 3]; 2] {
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let n_dot_v = dot(n, v);
+    let mut sums = [[0.0; 3]; 2];
+    for &[x, y, z, r, g, b] in cells {
+        let l = [x, y, z];
+        let n_dot_l = dot(n, l);
+        if n_dot_l <= 0.0 {
+            continue;
+        }
+        let h = unit(std::array::from_fn(|i| l[i] + v[i]));
+        let (n_dot_h, l_dot_h) = (dot(n, h), dot(l, h));
+        let d = d_ggx(n_dot_h, (1.0 - n_dot_h * n_dot_h).max(0.0), alpha);
+        let weight = d * v_smith_ggx_correlated(n_dot_v, n_dot_l, l_dot_h, alpha) * n_dot_l;
+        let fresnel = (1.0 - l_dot_h).max(0.0).powi(5);
+        for (sum, share) in sums.iter_mut().zip([1.0 - fresnel, fresnel]) {
+            for (sum, light) in sum.iter_mut().zip([r, g, b]) {
+                *sum += weight * share * light;
+            }
+        }
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Under an even sky the split sum is exact: what the rows show is the model's error, not that of their sums.
+    #[test]
+    fn white_has_no_error() {
+        let Row { error_max, .. } = rows(Effort::Quick, "white", &halfvector_ibl::white())
+            .into_iter()
+            .max_by(|a, b| a.error_max.partial_cmp(&b.error_max).expect("numbers"))
+            .expect("a row");
+        assert!(error_max.is_some_and(|error| error < 3e-3), "{error_max:?}");
+    }
+}
