@@ -75,7 +75,8 @@ fn encoding_failed(path: &Path, error: &image::ImageError) -> Failure {
         .try_to("a smaller --size, or another format")
 }
 
-fn png(picture: &Picture, display: Display) -> Result<Vec<u8>, image::ImageError> {
+/// The bytes of a PNG file.
+pub(crate) fn png(picture: &Picture, display: Display) -> Result<Vec<u8>, image::ImageError> {
     let codes: Vec<u8> = picture.pixels.iter().flat_map(|&pixel| codes(pixel, display)).collect();
     let mut bytes = Vec::new();
     image::codecs::png::PngEncoder::new(&mut bytes).write_image(

@@ -2,18 +2,20 @@
 
 use std::path::PathBuf;
 
+use halfvector_graph::needs::ToneMap;
 use halfvector_ibl::save::{CubeLevels, HDRE_LEVELS, SaveError, TexelFormat, hdre_face};
 use halfvector_ibl::{
     BakeOptions, BakedEnvironment, Cube, LevelMap, LoadedEnvironment, MAX_SIZE, Quality, Source, StoredLevels,
     StoredLobe, save,
 };
-use halfvector_render::Renderer;
+use halfvector_render::{Picture, Renderer};
 use halfvector_scene::EnvironmentSource;
 
 use crate::environment::{bake_with_bar, ggx_roughness, load};
 use crate::failure::Failure;
 use crate::harmonics_file;
 use crate::output::{check_place, note, progress, write_file};
+use crate::picture_file::{Display, png};
 use crate::set_value::numbers;
 
 /// Prefilters an environment for real-time light: a cube map whose levels are filtered for a rising roughness.
@@ -31,7 +33,8 @@ pub(crate) struct BakeArgs {
     /// The environment: a .hdr, .exr, .hdre, .ktx2, .png or .jpg file, six faces, or white, studio or sky
     #[arg(value_name = "ENV", value_parser = parse_environment)]
     environment: EnvironmentSource,
-    /// The prefiltered levels: .ktx2 for engines, .hdre (2.0, six levels), or .exr, a strip of faces for each level
+    /// The prefiltered levels: .ktx2 for engines, .hdre (2.0, six levels), or .exr or .png (tone-mapped, to look at), a
+    /// strip of faces for each level
     #[arg(short, long, value_name = "OUT", value_parser = parse_cube_file)]
     output: CubeFile,
     /// Texels along an edge of a face of level 0; each further level has half as many
@@ -50,7 +53,7 @@ pub(crate) struct BakeArgs {
     /// How a KTX2 file stores a texel: rgba16f, rgba32f, or rgb9e5, the smallest
     #[arg(long, value_name = "NAME", default_value = "rgba16f", value_parser = parse_texels)]
     texels: TexelFormat,
-    /// Also writes diffuse irradiance over pi as a cube of 192 texels, .ktx2 or .exr
+    /// Also writes diffuse irradiance over pi as a cube of 192 texels, .ktx2, .exr or .png
     #[arg(long, value_name = "OUT2", value_parser = parse_cube_file)]
     irradiance: Option<CubeFile>,
     /// Also writes the spherical harmonics of the light and of its irradiance
@@ -84,6 +87,7 @@ enum CubeFormat {
     Ktx2,
     Hdre,
     Exr,
+    Png,
 }
 
 /// The values of `--roughness`.
@@ -193,7 +197,7 @@ fn check_files(args: &BakeArgs) -> Result<(), Failure> {
         return Err(Failure::usage("irradiance cannot be an .hdre file")
             .at(&file.path)
             .because("the format has six levels, and irradiance is one")
-            .try_to("a .ktx2 or .exr file"));
+            .try_to("a .ktx2, .exr or .png file"));
     }
     Ok(())
 }
@@ -308,7 +312,17 @@ fn coded(
         CubeFormat::Ktx2 => save::ktx2(cube, texels),
         CubeFormat::Hdre => save::hdre(cube.levels, Some(&baked.irradiance_sh)),
         CubeFormat::Exr => save::exr(cube),
+        CubeFormat::Png => png_strip(cube),
     }
+}
+
+/// The strip of an .exr file as a viewer shows it: the default tone map, sRGB.
+fn png_strip(cube: CubeLevels<'_>) -> Result<Vec<u8>, SaveError> {
+    let (width, height, texels) = save::strip(cube.levels);
+    let pixels = texels.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect();
+    let picture = Picture { width: width as u32, height: height as u32, pixels };
+    let display = Display::ToneMapped { exposure: 1.0, tone_map: ToneMap::default() };
+    png(&picture, display).map_err(|error| SaveError::Encoder(error.to_string()))
 }
 
 fn parse_environment(text: &str) -> Result<EnvironmentSource, String> {
@@ -322,7 +336,8 @@ fn parse_cube_file(text: &str) -> Result<CubeFile, String> {
         Some("ktx2") => CubeFormat::Ktx2,
         Some("hdre") => CubeFormat::Hdre,
         Some("exr") => CubeFormat::Exr,
-        _ => return Err("the file name must end in .ktx2, .hdre or .exr".to_owned()),
+        Some("png") => CubeFormat::Png,
+        _ => return Err("the file name must end in .ktx2, .hdre, .exr or .png".to_owned()),
     };
     Ok(CubeFile { path, format })
 }
@@ -380,6 +395,6 @@ mod tests {
     #[test]
     fn formats_are_told_by_the_extension() {
         assert_eq!(parse_cube_file("a.b/c.KTX2").map(|file| file.format), Ok(CubeFormat::Ktx2));
-        assert!(parse_cube_file("a.png").is_err() && parse_cube_file("ktx2").is_err());
+        assert!(parse_cube_file("a.jpg").is_err() && parse_cube_file("ktx2").is_err());
     }
 }

@@ -77,6 +77,13 @@ fn formats_and_levels_as_asked() {
     assert_eq!(header(&read("x.ktx2"))[7], 3);
     bake(&["-o", "x.exr", "--size", "16"]).ends(0);
     assert!(read("x.exr").starts_with(&[0x76, 0x2f, 0x31, 0x01]));
+    bake(&["-o", "x.png", "--size", "16", "--irradiance", "diffuse.png"]).ends(0);
+    // White, six faces wide and 16 + 8 + 4 + 2 + 1 rows high; what no level covers is black.
+    let strip = image::load_from_memory(&read("x.png")).expect("a picture").into_rgb8();
+    assert_eq!(strip.dimensions(), (96, 31));
+    assert!(strip.get_pixel(95, 15)[0] > 200 && strip.get_pixel(47, 16)[0] > 200 && strip.get_pixel(48, 16)[0] == 0);
+    let diffuse = image::load_from_memory(&read("diffuse.png")).expect("a picture").into_rgb8();
+    assert_eq!((diffuse.width(), diffuse.get_pixel(0, 0)), (6 * diffuse.height(), strip.get_pixel(0, 0)));
     bake(&["-o", "x.hdre", "--size", "16"]).ends(0).says("6 levels for roughness 0.000 0.200");
     let hdre = read("x.hdre");
     assert_eq!(hdre.len(), 256 + 16 * 6 * (256 + 5 * 64));
@@ -113,7 +120,7 @@ fn wrong_input_says_what_to_do() {
     bake(&["empty.exr", "-o", "x.ktx2"]).ends(1).says("empty");
     bake(&["none.hdr", "-o", "x.ktx2"]).ends(1).says("none.hdr");
     bake(&["none", "-o", "x.ktx2"]).ends(2).says("nothing to bake");
-    bake(&["white", "-o", "x.png"]).ends(2).says(".ktx2, .hdre or .exr");
+    bake(&["white", "-o", "x.jpg"]).ends(2).says(".ktx2, .hdre, .exr or .png");
     bake(&["white", "-o", "x.ktx2", "--irradiance", "x.ktx2"]).ends(2).says("one file");
     bake(&["white", "-o", "x.ktx2", "--irradiance", "y.hdre"]).ends(2).says("six levels");
     bake(&["white", "-o", "x.hdre", "--levels", "5"]).ends(2).says("six levels");
@@ -123,4 +130,94 @@ fn wrong_input_says_what_to_do() {
     bake(&["white", "-o", "x.ktx2", "--roughness", "1,0"]).ends(2).says("rise");
     bake(&["white", "-o", "x.ktx2", "--quality", "perfect"]).ends(2).says("preview, default and best");
     assert!(!folder.path("x.ktx2").exists());
+}
+
+/// Radiance of the test's environment: each axis has its colour, and a lamp stands aside of all of them.
+fn light([x, y, z]: [f64; 3]) -> [f64; 3] {
+    let lamp = 6.0 * (20.0 * (0.6 * x + 0.48 * y + 0.64 * z - 1.0)).exp();
+    [0.6 + 0.5 * x + lamp, 0.6 + 0.5 * y + lamp, 0.6 + 0.5 * z + 0.5 * lamp]
+}
+
+/// Writes an HDR file of what `direction(column, row)` says, in texels.
+fn write_light(
+    folder: &Folder,
+    name: &str,
+    [width, height]: [usize; 2],
+    direction: impl Fn(f64, f64) -> Option<[f64; 3]>,
+) {
+    let mut bytes = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").into_bytes();
+    for k in 0..width * height {
+        let color = match direction((k % width) as f64 + 0.5, (k / width) as f64 + 0.5) {
+            Some(dir) => {
+                let length = dir.iter().map(|x| x * x).sum::<f64>().sqrt();
+                light(dir.map(|x| x / length))
+            }
+            None => [0.0; 3],
+        };
+        let exponent = color.into_iter().fold(1e-9, f64::max).log2().floor() as i32 + 1;
+        bytes.extend(color.map(|x| (x * f64::from(8 - exponent).exp2()) as u8));
+        bytes.push((128 + exponent) as u8);
+    }
+    std::fs::write(folder.path(name), bytes).expect("written");
+}
+
+/// A ball under a map, under its bake, under a cross and under six faces that show the same: one picture.
+#[test]
+fn a_ball_looks_the_same_under_every_form() {
+    let folder = Folder::new();
+    folder.write(
+        "ball.material.json",
+        r#"{"halfvector": 1, "name": "ball",
+          "nodes": {"surface": {"node": "surface/surface",
+            "values": {"base_color": [1, 1, 1], "metallic": 1, "perceptual_roughness": 0.25}}}, "links": []}"#,
+    );
+    write_light(&folder, "map.hdr", [256, 128], |column, row| {
+        // The middle column is +X, and azimuth rises towards +Z.
+        let (phi, theta) = ((column / 256.0 - 0.5) * std::f64::consts::TAU, row / 128.0 * std::f64::consts::PI);
+        Some([theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin()])
+    });
+    // What a GPU finds at (s, t), s to the right and t down, on +X -X +Y -Y +Z -Z.
+    let on_face = |face: usize, s: f64, t: f64| match face {
+        0 => [1.0, -t, -s],
+        1 => [-1.0, -t, s],
+        2 => [s, 1.0, t],
+        3 => [s, -1.0, -t],
+        4 => [s, -t, 1.0],
+        _ => [-s, -t, -1.0],
+    };
+    let place = |x: f64| 2.0 * (x / 64.0).fract() - 1.0;
+    for (face, name) in ["px", "nx", "py", "ny", "pz", "nz"].iter().enumerate() {
+        write_light(&folder, &format!("face_{name}.hdr"), [64, 64], |i, j| Some(on_face(face, place(i), place(j))));
+    }
+    write_light(&folder, "cross.hdr", [256, 192], |i, j| {
+        let face = match ((i / 64.0) as usize, (j / 64.0) as usize) {
+            (1, 0) => 2,
+            (1, 2) => 3,
+            (column, 1) => [1, 4, 0, 5][column],
+            _ => return None,
+        };
+        Some(on_face(face, place(i), place(j)))
+    });
+    folder.run(&["bake", "map.hdr", "-o", "map.ktx2", "--size", "256"]).ends(0);
+    let mut pictures = Vec::new();
+    for environment in ["map.hdr", "map.ktx2", "cross.hdr", "face_%s.hdr"] {
+        let arguments = ["render", "ball.material.json", "--env", environment, "--size", "48x48", "-o", "ball.exr"];
+        let run = folder.run(&arguments);
+        if run.lacks_gpu() {
+            return;
+        }
+        run.ends(0);
+        pictures.push(image::open(folder.path("ball.exr")).expect("a picture").into_rgb32f());
+    }
+    let mean = pictures[0].as_raw().iter().sum::<f32>() / pictures[0].as_raw().len() as f32;
+    for (picture, form) in pictures[1..].iter().zip(["the bake", "the cross", "the faces"]) {
+        let difference = |a: &image::Rgb32FImage, b: &image::Rgb32FImage| {
+            let squares: f32 = a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| (a - b).powi(2)).sum();
+            (squares / a.as_raw().len() as f32).sqrt() / mean
+        };
+        let found = difference(&pictures[0], picture);
+        let mirrored = difference(&image::imageops::flip_horizontal(&pictures[0]), picture);
+        println!("{form}: {:.3} % rms from the map, {:.1} % from its mirror image", 100.0 * found, 100.0 * mirrored);
+        assert!(found < 0.01 && mirrored > 0.1, "{form}: {found}, {mirrored}");
+    }
 }
