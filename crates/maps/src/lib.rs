@@ -44,3 +44,7 @@ pub use pack::{Layout, Map, PackError, pack, unpack};
 pub use profile::Profile;
 pub use real::Real;
 pub use tangents::{SplitTangents, split_tangents, tangents};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
