@@ -1,44 +1,421 @@
-//! Terms of the BRDF: each form in f32 against the same form in f64, or against the exact form it stands for.
+//! Terms of the BRDF: each form in f32 against itself in f64, and against the exact form it stands for. Times of one call
+//! and of an element of a batch with the widest vectors of the machine.
 
 use crate::error::Errors;
 use crate::timing::interleaved;
 use crate::{Effort, Row};
-use halfvector_brdf::fresnel::{f_dielectric, f_exact, f_schlick};
+use halfvector_brdf::Real;
+use halfvector_brdf::anisotropic::{d_ggx_anisotropic, v_smith_ggx_anisotropic};
+use halfvector_brdf::batch::kernels::SpecularEval;
+use halfvector_brdf::batch::{Kernel, Simd};
+use halfvector_brdf::beckmann::{
+    d_beckmann, v_smith_beckmann_correlated, v_smith_beckmann_exact, v_smith_beckmann_separable,
+};
+use halfvector_brdf::diffuse::{
+    diffuse_burley, diffuse_eon, diffuse_eon_exact, diffuse_fon, diffuse_lambert, diffuse_oren_nayar,
+};
+use halfvector_brdf::frame::frame_from_normal;
+use halfvector_brdf::fresnel::{f_conductor, f_dielectric, f_exact, f_f82_tint, f_schlick};
+use halfvector_brdf::ggx::{d_ggx, v_smith_ggx_correlated, v_smith_ggx_separable};
+use halfvector_brdf::lobe_sheen::sheen_albedo;
+use halfvector_brdf::lobe_specular::{Specular, specular_eval};
+use halfvector_brdf::multiscatter::{energy_compensation, energy_compensation_fdez_aguera, multiscatter_color};
+use halfvector_brdf::sheen::{d_charlie, v_neubelt};
+use halfvector_brdf::thin_film::f_thin_film;
+use halfvector_brdf::visibility::{v_cook_torrance, v_hammon, v_kelemen, v_schlick_smith};
+use std::f64::consts::FRAC_PI_2;
+use std::hint::black_box;
 
-/// A form of the reflectance: f0, f90, l.h.
-type Fresnel = fn([f32; 3], [f32; 3], f32) -> [f32; 3];
+/// Gold in the green: index and extinction.
+const GOLD: [f64; 2] = [0.4, 2.4];
+/// A film of oil: index, thickness in nanometres; on glass.
+const FILM: [f64; 3] = [1.4, 450.0, 1.5];
+
+/// A metal's reflectance.
+const F0: [f64; 3] = [0.9, 0.6, 0.3];
+
+/// A form in every arithmetic.
+struct Form<const N: usize> {
+    name: &'static str,
+    single: Box<dyn Fn([f32; N]) -> f32>,
+    exact: Box<dyn Fn([f64; N]) -> f64>,
+    /// All points, one call each.
+    calls: Box<dyn Fn(&[[f32; N]]) -> f64>,
+    batch: Box<dyn Fn([&[f32]; N], &mut [f32])>,
+}
+
+impl<const N: usize> Form<N> {
+    fn new<K: Kernel<N, 1> + Copy + 'static>(name: &'static str, kernel: K) -> Self {
+        Self {
+            name,
+            single: Box::new(move |x| kernel.call(x)[0]),
+            exact: Box::new(move |x| kernel.call(x)[0]),
+            // A black box around each result keeps the compiler from widening the loop.
+            calls: Box::new(move |points| points.iter().map(|&x| f64::from(black_box(kernel.call(x)[0]))).sum()),
+            batch: Box::new(move |inputs, output| {
+                let equal = Simd::best().run(&kernel, inputs, [output]);
+                assert!(equal.is_ok(), "columns of one length");
+            }),
+        }
+    }
+}
+
+/// A form of as many arguments as the first number says.
+macro_rules! form {
+    ($n:literal, $name:literal, $input:pat => $value:expr) => {{
+        #[derive(Clone, Copy)]
+        struct Of;
+        impl Kernel<$n, 1> for Of {
+            #[inline(always)]
+            fn call<R: Real>(&self, $input: [R; $n]) -> [R; 1] {
+                [$value]
+            }
+        }
+        Form::new($name, Of)
+    }};
+}
+
+/// Forms of one term, on one set of points.
+struct Group<const N: usize> {
+    term: &'static str,
+    /// The points, in words.
+    points_are: &'static str,
+    points: Vec<[f32; N]>,
+    forms: Vec<Form<N>>,
+}
+
+/// What the forms of a group are measured against.
+struct Against<'a, const N: usize> {
+    name: &'static str,
+    /// `None` is each form itself in f64.
+    truth: Option<&'a dyn Fn([f64; N]) -> f64>,
+    /// The error is relative to the truth, or to this where the truth is less.
+    floor: f64,
+}
+
+impl<const N: usize> Against<'_, N> {
+    fn itself(floor: f64) -> Self {
+        Against { name: "the same form in f64", truth: None, floor }
+    }
+}
+
+impl<const N: usize> Group<N> {
+    fn rows(&self, effort: Effort, against: &[Against<'_, N>]) -> Vec<Row> {
+        let columns: [Vec<f32>; N] = std::array::from_fn(|i| self.points.iter().map(|x| x[i]).collect());
+        let inputs = columns.each_ref().map(Vec::as_slice);
+        let points = &self.points;
+        let mut runs: Vec<Box<dyn FnMut() -> f64 + '_>> = Vec::new();
+        for form in &self.forms {
+            let mut output = vec![0.0; points.len()];
+            runs.push(Box::new(|| (form.calls)(points)));
+            runs.push(Box::new(move || {
+                (form.batch)(inputs, &mut output);
+                f64::from(output[0])
+            }));
+        }
+        let mut candidates: Vec<_> = runs.iter_mut().map(|run| run.as_mut() as &mut dyn FnMut() -> f64).collect();
+        let seconds = interleaved(&mut candidates, effort.pick(20, 200));
+        let ns = |run: usize| Some(seconds[run] * 1e9 / points.len() as f64);
+
+        let mut rows = Vec::new();
+        for against in against {
+            let domain = format!(
+                "{}; error relative to max(truth, {}) against {}",
+                self.points_are, against.floor, against.name
+            );
+            for (i, form) in self.forms.iter().enumerate() {
+                let mut errors = Errors::default();
+                for &x in points {
+                    let wide = x.map(f64::from);
+                    let truth = against.truth.map_or_else(|| (form.exact)(wide), |truth| truth(wide));
+                    let error = (f64::from((form.single)(x)) - truth) / truth.abs().max(against.floor);
+                    errors.add(error, || format!("{x:?}"));
+                }
+                let mut row = Row::new(self.term, form.name, &domain);
+                errors.fill(&mut row);
+                (row.cost_ns, row.cost_batch_ns) = (ns(2 * i), ns(2 * i + 1));
+                rows.push(row);
+            }
+        }
+        rows
+    }
+}
 
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
-    fresnel(effort)
+    let count = effort.pick(1 << 11, 1 << 14);
+    [d(effort, count), sheen(effort, count), v(effort, count), v_beckmann(effort, count), v_anisotropic(effort, count)]
+        .into_iter()
+        .chain([dielectric(effort, count), conductor(effort, count), thin_film(effort, count)])
+        .chain([diffuse(effort, count), compensation(effort, count), specular(effort, count)])
+        .flatten()
+        .collect()
 }
 
-/// Fresnel of a dielectric of ior 1.5: the forms in f32 against Fresnel's equations in f64.
-fn fresnel(effort: Effort) -> Vec<Row> {
-    const DOMAIN: &str = "dielectric, ior 1.5, l.h evenly in 0..1; absolute error against Fresnel's equations in f64";
-    let points = effort.pick(1 << 10, 1 << 14);
-    let cosines: Vec<f32> = (0..points).map(|i| (i as f32 + 0.5) / points as f32).collect();
-    let (f0, f90) = ([0.04f32; 3], [1.0f32; 3]);
-    let forms: [(&str, Fresnel); 2] = [("schlick", f_schlick), ("exact", f_exact)];
+/// Evenly spread points of the unit cube: multiples of irrational numbers. Roberts 2018, The Unreasonable Effectiveness of
+/// Quasirandom Sequences.
+fn spread(count: usize) -> impl Iterator<Item = [f64; 4]> {
+    const STEPS: [f64; 4] =
+        [0.856_674_883_854_502_9, 0.733_891_856_627_126, 0.628_706_721_037_865, 0.538_597_257_223_612];
+    (0..count).map(|k| STEPS.map(|step| (0.5 + step * k as f64).fract()))
+}
 
-    let mut runs: Vec<_> =
-        forms.iter().map(|(_, form)| || cosines.iter().map(|&c| f64::from(form(f0, f90, c)[0])).sum::<f64>()).collect();
-    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
-    let seconds = interleaved(&mut candidates, effort.pick(20, 200));
+/// n.h, sin^2 and alpha: half vectors dense about the normal.
+fn half_angles(count: usize) -> Vec<[f32; 3]> {
+    let point = |[a, r, ..]: [f64; 4]| {
+        let (sine, cosine) = (FRAC_PI_2 * a * a).sin_cos();
+        let roughness = 0.045 + 0.955 * r;
+        [cosine, sine * sine, roughness * roughness].map(|x| x as f32)
+    };
+    spread(count).map(point).collect()
+}
 
-    forms
-        .iter()
-        .zip(seconds)
-        .map(|((name, form), seconds)| {
-            let mut errors = Errors::default();
-            for &cosine in &cosines {
-                let truth = f_dielectric(1.5f64, f64::from(cosine));
-                errors.add(f64::from(form(f0, f90, cosine)[0]) - truth, || format!("l.h = {cosine}"));
-            }
-            let mut row = Row::new("fresnel", name, DOMAIN);
-            errors.fill(&mut row);
-            row.cost_ns = Some(seconds * 1e9 / points as f64);
-            row
-        })
-        .collect()
+/// n.v, n.l, l.h and a fourth argument; the cosines logarithmic from 0.01.
+fn cosines(count: usize, fourth: impl Fn(f64) -> f64) -> Vec<[f32; 4]> {
+    let point = |[v, l, phi, x]: [f64; 4]| {
+        let (v, l) = (0.01_f64.powf(v), 0.01_f64.powf(l));
+        let l_dot_v = v * l + ((1.0 - v * v) * (1.0 - l * l)).sqrt() * (2.0 * FRAC_PI_2 * phi).cos();
+        [v, l, (0.5 + 0.5 * l_dot_v).max(0.0).sqrt(), fourth(x)].map(|x| x as f32)
+    };
+    spread(count).map(point).collect()
+}
+
+fn d(effort: Effort, count: usize) -> Vec<Row> {
+    let group = Group {
+        term: "d",
+        points_are: "half vectors 0..90 deg, dense at the normal, roughness 0.045..1",
+        points: half_angles(count),
+        forms: vec![
+            form!(3, "ggx", [n_dot_h, sin2, alpha] => d_ggx(n_dot_h, sin2, alpha)),
+            form!(3, "ggx_anisotropic", [n_dot_h, sin2, alpha] =>
+                d_ggx_anisotropic([sin2.sqrt(), R::ZERO, n_dot_h], alpha, alpha)),
+            form!(3, "beckmann", [n_dot_h, sin2, alpha] => d_beckmann(n_dot_h, sin2, alpha)),
+        ],
+    };
+    let ggx = |[n_dot_h, sin2, alpha]: [f64; 3]| d_ggx(n_dot_h, sin2, alpha);
+    let against = Against { name: "GGX in f64", truth: Some(&ggx), floor: 1e-6 };
+    group.rows(effort, &[Against::itself(1e-6), against])
+}
+
+fn sheen(effort: Effort, count: usize) -> Vec<Row> {
+    let d = Group {
+        term: "sheen",
+        points_are: "D of half vectors 0..90 deg, dense at the normal, roughness 0.045..1",
+        points: half_angles(count),
+        forms: vec![form!(3, "charlie", [n_dot_h, sin2, alpha] => d_charlie(n_dot_h, sin2, alpha))],
+    };
+    let albedo = Group {
+        term: "sheen",
+        points_are: "directional albedo of directions 0..90 deg, dense at the normal, roughness 0.045..1",
+        points: half_angles(count),
+        forms: vec![form!(3, "charlie", [n_dot_w, _, alpha] => sheen_albedo(n_dot_w, alpha.sqrt()))],
+    };
+    [d, albedo].iter().flat_map(|group| group.rows(effort, &[Against::itself(1e-2)])).collect()
+}
+
+/// The whole specular lobe: as one point is shaded, and as batches compute it.
+fn specular(effort: Effort, count: usize) -> Vec<Row> {
+    let direction = |z: f64, phi: f64| {
+        let (sine, phi) = ((1.0 - z * z).sqrt(), 4.0 * FRAC_PI_2 * phi);
+        [sine * phi.cos(), sine * phi.sin(), z]
+    };
+    let point = |([vz, phi, lz, psi], roughness): ([f64; 4], f64)| {
+        let ([vx, vy, vz], [lx, ly, lz]) = (direction(vz, phi), direction(lz, psi));
+        [vx, vy, vz, lx, ly, lz, roughness * roughness].map(|x| x as f32)
+    };
+    let roughness = (0..count).map(|k| 0.3 + 0.7 * (0.5 + 0.461_430_9 * k as f64).fract());
+    let group = Group {
+        term: "specular",
+        points_are: "sum of r, g, b of D V F n.l, f0 0.9, 0.6, 0.3, any two directions above the surface, roughness 0.3..1",
+        points: spread(count).zip(roughness).map(point).collect(),
+        forms: vec![
+            form!(7, "specular_eval", [vx, vy, vz, lx, ly, lz, alpha] => {
+                let frame = frame_from_normal([R::ZERO, R::ZERO, R::ONE], [vx, vy, vz]);
+                let [r, g, b] = specular_eval(frame, [lx, ly, lz], Specular { f0: F0.map(R::of), f90: [R::ONE; 3], alpha });
+                r + g + b
+            }),
+            form!(7, "SpecularEval", [vx, vy, vz, lx, ly, lz, alpha] => {
+                let f0 = F0.map(R::of);
+                let [r, g, b] = SpecularEval.call([vx, vy, vz, lx, ly, lz, alpha, f0[0], f0[1], f0[2]]);
+                r + g + b
+            }),
+        ],
+    };
+    group.rows(effort, &[Against::itself(1e-3)])
+}
+
+fn v(effort: Effort, count: usize) -> Vec<Row> {
+    let group = Group {
+        term: "v",
+        points_are: "n.v and n.l logarithmic in 0.01..1, alpha logarithmic in 0.002..1",
+        points: cosines(count, |x| 0.002_f64.powf(x)),
+        forms: vec![
+            form!(4, "correlated", [v, l, h, alpha] => v_smith_ggx_correlated(v, l, h, alpha)),
+            form!(4, "separable", [v, l, h, alpha] => v_smith_ggx_separable(v, l, h, alpha)),
+            form!(4, "hammon", [v, l, h, alpha] => v_hammon(v, l, h, alpha)),
+            form!(4, "schlick_smith", [v, l, h, alpha] => v_schlick_smith(v, l, h, alpha)),
+            form!(4, "cook_torrance", [v, l, h, alpha] => v_cook_torrance(v, l, h, alpha)),
+            form!(4, "kelemen", [v, l, h, alpha] => v_kelemen(v, l, h, alpha)),
+            form!(4, "neubelt", [v, l, h, alpha] => v_neubelt(v, l, h, alpha)),
+            form!(4, "beckmann_correlated", [v, l, h, alpha] => v_smith_beckmann_correlated(v, l, h, alpha)),
+            form!(4, "beckmann_separable", [v, l, h, alpha] => v_smith_beckmann_separable(v, l, h, alpha)),
+        ],
+    };
+    let smith = |[v, l, h, alpha]: [f64; 4]| v_smith_ggx_correlated(v, l, h, alpha);
+    let name = "Smith's height-correlated form for GGX in f64";
+    group.rows(effort, &[Against::itself(0.0), Against { name, truth: Some(&smith), floor: 0.0 }])
+}
+
+fn v_beckmann(effort: Effort, count: usize) -> Vec<Row> {
+    let group = Group {
+        term: "v",
+        points_are: "n.v and n.l logarithmic in 0.01..1, alpha logarithmic in 0.002..1",
+        points: cosines(count, |x| 0.002_f64.powf(x)),
+        forms: vec![
+            form!(4, "beckmann_exact", [v, l, h, alpha] => v_smith_beckmann_exact(v, l, h, alpha)),
+            form!(4, "beckmann_correlated", [v, l, h, alpha] => v_smith_beckmann_correlated(v, l, h, alpha)),
+            form!(4, "beckmann_separable", [v, l, h, alpha] => v_smith_beckmann_separable(v, l, h, alpha)),
+        ],
+    };
+    let smith = |[v, l, h, alpha]: [f64; 4]| v_smith_beckmann_exact(v, l, h, alpha);
+    let name = "Smith's height-correlated form for Beckmann in f64";
+    group.rows(effort, &[Against { name, truth: Some(&smith), floor: 0.0 }])
+}
+
+fn v_anisotropic(effort: Effort, count: usize) -> Vec<Row> {
+    let group = Group {
+        term: "v",
+        points_are: "n.v and n.l logarithmic in 0.01..1 in one plane with the tangent, alphas of ratio 4, logarithmic",
+        points: cosines(count, |x| 0.002_f64.powf(x)),
+        forms: vec![form!(4, "ggx_anisotropic", [v, l, _, alpha] => {
+            let along = |cosine: R| [(R::ONE - cosine * cosine).max(R::ZERO).sqrt(), R::ZERO, cosine];
+            v_smith_ggx_anisotropic(along(v), along(l), alpha, alpha * R::of(0.25))
+        })],
+    };
+    group.rows(effort, &[Against::itself(0.0)])
+}
+
+/// l.h evenly in 0..1.
+fn incidences(count: usize) -> Vec<[f32; 1]> {
+    (0..count).map(|i| [(i as f32 + 0.5) / count as f32]).collect()
+}
+
+fn dielectric(effort: Effort, count: usize) -> Vec<Row> {
+    let group = Group {
+        term: "fresnel",
+        points_are: "dielectric, ior 1.5, l.h evenly in 0..1",
+        points: incidences(count),
+        forms: vec![
+            form!(1, "schlick", [c] => f_schlick([R::of(0.04); 3], [R::ONE; 3], c)[0]),
+            form!(1, "exact", [c] => f_exact([R::of(0.04); 3], [R::ONE; 3], c)[0]),
+            form!(1, "dielectric", [c] => f_dielectric(R::of(1.5), c)),
+        ],
+    };
+    let truth = |[c]: [f64; 1]| f_dielectric(1.5, c);
+    let name = "Fresnel's equations in f64";
+    group.rows(effort, &[Against::itself(0.02), Against { name, truth: Some(&truth), floor: 1.0 }])
+}
+
+fn conductor(effort: Effort, count: usize) -> Vec<Row> {
+    let group = Group {
+        term: "fresnel",
+        points_are: "gold in the green, index 0.4 + 2.4 i, l.h evenly in 0..1",
+        points: incidences(count),
+        forms: vec![
+            form!(1, "schlick", [c] => f_schlick([R::of(gold_f0()); 3], [R::ONE; 3], c)[0]),
+            form!(1, "f82_tint", [c] => f_f82_tint([R::of(gold_f0()); 3], [R::of(gold_tint()); 3], c)[0]),
+            form!(1, "conductor", [c] => f_conductor(R::of(GOLD[0]), R::of(GOLD[1]), c)),
+        ],
+    };
+    let truth = |[c]: [f64; 1]| f_conductor(GOLD[0], GOLD[1], c);
+    let name = "Fresnel's equations in f64";
+    group.rows(effort, &[Against::itself(0.02), Against { name, truth: Some(&truth), floor: 1.0 }])
+}
+
+fn gold_f0() -> f64 {
+    f_conductor(GOLD[0], GOLD[1], 1.0)
+}
+
+/// Reflectance at 82 degrees, relative to Schlick's.
+fn gold_tint() -> f64 {
+    let cosine = 1.0 / 7.0;
+    f_conductor(GOLD[0], GOLD[1], cosine) / f_schlick([gold_f0(); 3], [1.0; 3], cosine)[0]
+}
+
+fn thin_film(effort: Effort, count: usize) -> Vec<Row> {
+    let group = Group {
+        term: "fresnel",
+        points_are: "film of index 1.4 and 450 nm on glass, l.h evenly in 0..1, red",
+        points: incidences(count),
+        forms: vec![form!(1, "thin_film", [c] => {
+            let [film, thickness, base] = FILM.map(R::of);
+            f_thin_film(film, thickness, [base; 3], [R::ZERO; 3], c)[0]
+        })],
+    };
+    group.rows(effort, &[Against::itself(0.02)])
+}
+
+fn diffuse(effort: Effort, count: usize) -> Vec<Row> {
+    let group = Group {
+        term: "diffuse",
+        points_are: "albedo 0.8, n.v and n.l logarithmic in 0.01..1, roughness evenly in 0..1",
+        points: cosines(count, |x| x),
+        forms: vec![
+            form!(4, "lambert", [v, l, h, r] => diffuse_lambert([R::of(0.8); 3], v, l, h, r)[0]),
+            form!(4, "burley", [v, l, h, r] => diffuse_burley([R::of(0.8); 3], v, l, h, r)[0]),
+            form!(4, "oren_nayar", [v, l, h, r] => diffuse_oren_nayar([R::of(0.8); 3], v, l, h, r)[0]),
+            form!(4, "fon", [v, l, h, r] => diffuse_fon([R::of(0.8); 3], v, l, h, r)[0]),
+            form!(4, "eon", [v, l, h, r] => diffuse_eon([R::of(0.8); 3], v, l, h, r)[0]),
+            form!(4, "eon_exact", [v, l, h, r] => diffuse_eon_exact([R::of(0.8); 3], v, l, h, r)[0]),
+        ],
+    };
+    let truth = |[v, l, h, r]: [f64; 4]| diffuse_eon_exact([0.8; 3], v, l, h, r)[0];
+    let name = "EON with exact albedos in f64";
+    group.rows(effort, &[Against::itself(0.0), Against { name, truth: Some(&truth), floor: 0.0 }])
+}
+
+fn compensation(effort: Effort, count: usize) -> Vec<Row> {
+    let group = Group {
+        term: "compensation",
+        points_are: "f0 evenly in 0..1, single-scattering albedo of white evenly in 0.4..1",
+        points: spread(count).map(|[f0, albedo, ..]| [f0 as f32, (0.4 + 0.6 * albedo) as f32]).collect(),
+        forms: vec![
+            form!(2, "turquin", [f0, albedo] => energy_compensation([f0; 3], [R::ONE; 3], [albedo, R::ZERO])[0]),
+            form!(2, "fdez_aguera", [f0, albedo] =>
+                energy_compensation_fdez_aguera([f0; 3], [R::ONE; 3], [albedo, R::ZERO])[0]),
+            form!(2, "kulla_conty", [f0, albedo] => multiscatter_color([f0; 3], [R::ONE; 3], albedo)[0]),
+        ],
+    };
+    group.rows(effort, &[Against::itself(1e-3)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    /// Every row has its figures and no other row's name; what f32 adds is small, and the forms that stand for Smith's
+    /// differ from it as their documentation says.
+    #[test]
+    fn rows_are_whole_and_the_errors_as_documented() {
+        let rows = rows(Effort::Quick);
+        let names: HashSet<_> = rows.iter().map(|row| (&row.term, &row.method, &row.domain)).collect();
+        assert_eq!(names.len(), rows.len());
+        for row in &rows {
+            let figures = [row.error_max, row.error_rms, row.cost_ns, row.cost_batch_ns];
+            assert!(figures.iter().all(|x| x.is_some_and(f64::is_finite)), "{row:?}");
+            let own = row.domain.ends_with("the same form in f64");
+            assert!(!own || row.error_max < Some(2e-4), "{row:?}");
+        }
+        let rms = |method: &str, truth: &str| {
+            let found = rows.iter().find(|row| row.method == method && row.domain.contains(truth));
+            found.and_then(|row| row.error_rms).expect("a row")
+        };
+        assert!(rms("correlated", "for GGX") < 2e-7);
+        assert!((0.12..0.14).contains(&rms("hammon", "for GGX")));
+        assert!((0.7..0.8).contains(&rms("schlick_smith", "for GGX")));
+        assert!(rms("beckmann_correlated", "for Beckmann") < 0.01);
+        assert!(rms("eon", "exact albedos") < 0.01);
+        assert!(rms("f82_tint", "gold") < rms("schlick", "gold"));
+    }
 }
