@@ -6,7 +6,9 @@ use std::io::Cursor;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use halfvector_maps::{ColorSpace, Image, Limits, MapKind, decode, smaller_levels};
+use halfvector_maps::lost_length::Rule;
+use halfvector_maps::{Channels, ColorSpace, Image, Limits, MapKind, Texels};
+use halfvector_maps::{adjusted_roughness, decode, smaller_levels};
 use image::ImageFormat;
 
 const SIDE: u32 = 4096;
@@ -29,10 +31,14 @@ fn decoded(bytes: &[u8]) -> Image {
     decode(bytes, Limits::default()).and_then(|d| d.into_color()).expect("the file is sound").image
 }
 
-fn decoded_with_levels(bytes: &[u8]) -> (Image, Vec<Image>) {
-    let image = decoded(bytes);
-    let levels = smaller_levels(&image, ColorSpace::Srgb, MapKind::Color);
+fn with_levels(image: Image, color_space: ColorSpace, kind: MapKind) -> (Image, Vec<Image>) {
+    let levels = smaller_levels(&image, color_space, kind);
     (image, levels)
+}
+
+/// One roughness for the whole map, to be widened by the normals' spread.
+fn one_roughness() -> Image {
+    Image::new(1, 1, Channels::Grey, Texels::U8(vec![[90, 90, 90, 255]])).expect("one texel")
 }
 
 /// What the goal allows beside 1.2 decodes: each level's bytes written once, to fresh memory.
@@ -53,29 +59,48 @@ fn maps(c: &mut Criterion) {
     group.bench_function("levels, sRGB", |b| b.iter(|| smaller_levels(&image, ColorSpace::Srgb, MapKind::Color)));
     group.bench_function("levels, data", |b| b.iter(|| smaller_levels(&image, ColorSpace::Linear, MapKind::Data)));
     group.bench_function("levels, normals", |b| b.iter(|| smaller_levels(&image, ColorSpace::Linear, MapKind::Normal)));
+    let roughness = one_roughness();
+    group.bench_function("levels, lost length", |b| b.iter(|| adjusted_roughness(&roughness, &image, Rule::default())));
     group.finish();
     ratio(&bytes);
 }
 
 /// Interleaved, so that a machine that slows down slows all of them.
 fn ratio(bytes: &[u8]) {
-    let mut times = [Vec::new(), Vec::new(), Vec::new()];
-    let mut timed = |slot: usize, work: &mut dyn FnMut()| {
-        let start = Instant::now();
-        work();
-        times[slot].push(start.elapsed().as_secs_f64());
-    };
+    let roughness = one_roughness();
+    let mut runs: [(&str, &mut dyn FnMut()); 6] = [
+        ("image's decode", &mut || drop(black_box(decode_alone(bytes)))),
+        ("a pass over each level", &mut || drop(black_box(memory_passes()))),
+        ("decode + levels of a colour map", &mut || {
+            drop(black_box(with_levels(decoded(bytes), ColorSpace::Srgb, MapKind::Color)));
+        }),
+        ("decode + levels of a packed map", &mut || {
+            drop(black_box(with_levels(decoded(bytes), ColorSpace::Linear, MapKind::Data)));
+        }),
+        ("decode + levels of a normal map", &mut || {
+            drop(black_box(with_levels(decoded(bytes), ColorSpace::Linear, MapKind::Normal)));
+        }),
+        ("the same + levels of roughness", &mut || {
+            let (image, levels) = with_levels(decoded(bytes), ColorSpace::Linear, MapKind::Normal);
+            drop(black_box((adjusted_roughness(&roughness, &image, Rule::default()), image, levels)));
+        }),
+    ];
+    let mut times = [const { Vec::new() }; 6];
     for _ in 0..9 {
-        timed(0, &mut || drop(black_box(decoded_with_levels(bytes))));
-        timed(1, &mut || drop(black_box(decode_alone(bytes))));
-        timed(2, &mut || drop(black_box(memory_passes())));
+        for ((_, run), times) in runs.iter_mut().zip(&mut times) {
+            let start = Instant::now();
+            run();
+            times.push(start.elapsed().as_secs_f64());
+        }
     }
-    let [ours, theirs, passes] = times.map(|mut times| {
+    let medians = times.map(|mut times| {
         times.sort_by(f64::total_cmp);
         times[times.len() / 2]
     });
-    println!("decode + levels {ours:.3} s; image's decode {theirs:.3} s, a pass over each level {passes:.3} s");
-    println!("ratio to decode + passes: {:.2}; the goal is 1.2", ours / (theirs + passes));
+    for ((name, _), median) in runs.iter().zip(medians) {
+        println!("{name:<32} {median:.3} s, {:.2} of decode + passes", median / (medians[0] + medians[1]));
+    }
+    println!("the goal is 1.2");
 }
 
 criterion_group!(benches, maps);

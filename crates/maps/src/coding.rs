@@ -5,13 +5,13 @@ use std::sync::LazyLock;
 use crate::color::linear_from_srgb;
 
 /// The nearest 8-bit code of 0..1; clamped, NaN is 0.
-#[inline]
+#[inline(always)]
 pub(crate) fn code_u8(x: f32) -> u8 {
     (x * 255.0 + 0.5) as u8
 }
 
 /// The nearest 16-bit code of 0..1; clamped, NaN is 0.
-#[inline]
+#[inline(always)]
 pub(crate) fn code_u16(x: f32) -> u16 {
     (x * 65535.0 + 0.5) as u16
 }
@@ -52,7 +52,7 @@ impl Srgb8 {
     const STEPS: usize = 4096;
 
     /// The code nearest, in sRGB, to a linear value; clamped to 0..1, NaN is 0.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn code(&self, linear: f32) -> u8 {
         let code = self.start[((linear * Self::STEPS as f32) as usize).min(Self::STEPS)];
         code + u8::from(linear >= self.threshold[usize::from(code) + 1])

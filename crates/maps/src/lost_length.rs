@@ -9,9 +9,10 @@ use rayon::prelude::*;
 
 use crate::coding::{code_u8, code_u16};
 use crate::image::{Channels, Image, Texels};
-use crate::mip::footprint;
+use crate::mip::levels;
+use crate::normal::normal_from_texel;
 use crate::pack::channel;
-use crate::real::normalize_or;
+use crate::real::{Real, normalize_or, real};
 
 /// A rule for how much wider a lobe becomes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -64,18 +65,27 @@ const STEEPEST: f64 = 20.0;
 impl Spread {
     /// Of unit normals in tangent space, equally weighted. No normals have no spread.
     pub fn of(normals: &[[f64; 3]]) -> Self {
-        let mut moments = [0.0; 7];
+        let mut sums = [0.0; 6];
         for &normal in normals {
-            let texel = moments_of(normal);
-            moments.iter_mut().zip(texel).for_each(|(m, t)| *m += t / normals.len() as f64);
+            sums.iter_mut().zip(moments(normal)).for_each(|(sum, t)| *sum += t / normals.len() as f64);
         }
-        if normals.is_empty() { Self { mean_length: 1.0, slope_variance: 0.0 } } else { Self::from_moments(moments) }
+        if normals.is_empty() { Self { mean_length: 1.0, slope_variance: 0.0 } } else { Self::from_moments(sums) }
     }
 
-    fn from_moments([x, y, z, sx, sy, squares, _]: [f64; 7]) -> Self {
+    fn from_moments([x, y, z, sx, sy, squares]: [f64; 6]) -> Self {
         Self {
             mean_length: (x * x + y * y + z * z).sqrt().min(1.0),
             slope_variance: (squares - sx * sx - sy * sy).max(0.0),
+        }
+    }
+
+    /// The same from sums in f32: what their rounding may be is none.
+    fn from_moments_f32(moments: [f32; 6]) -> Self {
+        const ROUNDING: f64 = 5e-7;
+        let Self { mean_length, slope_variance } = Self::from_moments(moments.map(f64::from));
+        Self {
+            mean_length: if mean_length > 1.0 - ROUNDING { 1.0 } else { mean_length },
+            slope_variance: (slope_variance - ROUNDING * f64::from(moments[5])).max(0.0),
         }
     }
 }
@@ -132,68 +142,64 @@ pub fn adjusted_roughness(roughness: &Image, normal: &Image, rule: Rule) -> Resu
         return Err(SizesDiffer { roughness: size(roughness), normal: size(normal) });
     }
     let [width, height] = size(normal).map(|n| n as usize);
-    let first = |x: usize, y: usize| {
-        let r = if is_constant { roughness.texel(0, 0) } else { roughness.texel(x as u32, y as u32) };
-        let n = normal.texel(x as u32, y as u32).map(|c| 2.0 * f64::from(c) - 1.0);
-        let mut moments = moments_of(normalize_or([n[0], n[1], n[2]], [0.0, 0.0, 1.0]));
-        moments[6] = f64::from(r[0]).clamp(0.0, 1.0).powi(4);
-        moments
-    };
-    let stored = |level: &Moments| {
-        let perceptual = |m: &[f64; 7]| rule.alpha(m[6].sqrt(), Spread::from_moments(*m)).sqrt() as f32;
-        let values: Vec<f32> = level.texels.par_iter().with_min_len(1 << 12).map(perceptual).collect();
-        grey(&values, level.width, level.height, roughness)
-    };
     // The first level has no footprint to widen by.
-    let mut levels = vec![if is_constant {
+    let mut stored = vec![if is_constant {
         grey(&vec![roughness.texel(0, 0)[0]; width * height], width, height, roughness)
     } else {
         channel(roughness, 0, false)
     }];
-    let mut level = None;
-    while levels.last().is_some_and(|level| level.width() > 1 || level.height() > 1) {
-        let next = match &level {
-            None => Moments::halved(width, height, first),
-            Some(Moments { width, height, texels }) => Moments::halved(*width, *height, |x, y| texels[y * width + x]),
-        };
-        levels.push(stored(&next));
-        level = Some(next);
-    }
-    Ok(levels)
+    // The plane of alpha^2, or one row of it for all.
+    let alpha_squared = |perceptual: f32| if perceptual > 0.0 { perceptual.min(1.0).powi(4) } else { 0.0 };
+    let (alphas, stride): (Vec<f32>, usize) = if is_constant {
+        (vec![alpha_squared(roughness.texel(0, 0)[0]); width], 0)
+    } else {
+        let at = |i: usize| alpha_squared(roughness.texel((i % width) as u32, (i / width) as u32)[0]);
+        ((0..width * height).into_par_iter().with_min_len(1 << 14).map(at).collect(), width)
+    };
+    let alphas = |y: usize| alphas[y * stride..][..width].iter();
+    let perceptual = |[x, y, z, sx, sy, squares, alpha_squared]: [f32; 7]| {
+        let spread = Spread::from_moments_f32([x, y, z, sx, sy, squares]);
+        rule.alpha(f64::from(alpha_squared).sqrt(), spread).sqrt() as f32
+    };
+    let smaller = match normal.texels() {
+        Texels::U8(texels) => {
+            let read = |c: u8| f32::from(c) * (1.0 / 255.0);
+            let row = |y: usize| texels[y * width..][..width].iter().zip(alphas(y));
+            levels(width, height, |y| row(y).map(|(t, &a)| texel_moments(t.map(read), a)), perceptual)
+        }
+        Texels::U16(texels) => {
+            let read = |c: u16| f32::from(c) * (1.0 / 65_535.0);
+            let row = |y: usize| texels[y * width..][..width].iter().zip(alphas(y));
+            levels(width, height, |y| row(y).map(|(t, &a)| texel_moments(t.map(read), a)), perceptual)
+        }
+        Texels::F32(texels) => {
+            let row = |y: usize| texels[y * width..][..width].iter().zip(alphas(y));
+            levels(width, height, |y| row(y).map(|(&t, &a)| texel_moments(t, a)), perceptual)
+        }
+    };
+    stored.extend(smaller.iter().map(|level| grey(&level.texels, level.width, level.height, roughness)));
+    Ok(stored)
 }
 
-/// Unit normal, slopes, the sum of their squares, and a place for alpha^2: the means of these are what the rules need.
-fn moments_of([x, y, z]: [f64; 3]) -> [f64; 7] {
-    let slope = |t: f64| (t / z.max(1e-6)).clamp(-STEEPEST, STEEPEST);
+/// The numbers whose means the rules need, of a unit normal: the normal, its slopes, and the sum of their squares.
+#[inline(always)]
+fn moments<R: Real>([x, y, z]: [R; 3]) -> [R; 6] {
+    let (least, steepest) = (real::<R>(1e-6), real::<R>(STEEPEST));
+    let inverse = real::<R>(1.0) / if z > least { z } else { least };
+    let slope = |t: R| {
+        let slope = t * inverse;
+        let slope = if slope > steepest { steepest } else { slope };
+        if slope < -steepest { -steepest } else { slope }
+    };
     let (sx, sy) = (slope(x), slope(y));
-    [x, y, z, sx, sy, sx * sx + sy * sy, 0.0]
+    [x, y, z, sx, sy, sx * sx + sy * sy]
 }
 
-/// A level of moments: the mean over each footprint.
-struct Moments {
-    width: usize,
-    height: usize,
-    texels: Vec<[f64; 7]>,
-}
-
-impl Moments {
-    /// The level below one of `width` x `height` texels: each the mean over what it covers, which for an odd side is two
-    /// texels and parts of a third.
-    fn halved(width: usize, height: usize, texel: impl Fn(usize, usize) -> [f64; 7] + Sync) -> Self {
-        let [half_width, half_height] = [width, height].map(|n| (n / 2).max(1));
-        let mean = |i: usize| {
-            let mut sum = [0.0; 7];
-            for (j, row_weight) in footprint(height, i / half_width).weights() {
-                for (i, weight) in footprint(width, i % half_width).weights() {
-                    let weight = f64::from(weight * row_weight);
-                    sum.iter_mut().zip(texel(i, j)).for_each(|(s, t)| *s += weight * t);
-                }
-            }
-            sum
-        };
-        let texels = (0..half_width * half_height).into_par_iter().with_min_len(1 << 12).map(mean).collect();
-        Self { width: half_width, height: half_height, texels }
-    }
+/// The moments of a texel, and its alpha^2.
+#[inline(always)]
+fn texel_moments([r, g, b, _]: [f32; 4], alpha_squared: f32) -> [f32; 7] {
+    let [x, y, z, sx, sy, squares] = moments(normal_from_texel([r, g, b], 1.0, false));
+    [x, y, z, sx, sy, squares, alpha_squared]
 }
 
 /// Values as a grey image of the depth of `like`.

@@ -9,6 +9,7 @@ use crate::real::{Real, add, cross, dot, normalize_or, plus_z, real, scale};
 /// The tangent-space unit normal that a texel says. `color` is the texel in 0..1: t = 2 c - 1, x and y scaled by
 /// `strength` (1 leaves them), y turned over by `flip_y`. A texel that says nothing, such as (.5, .5, .5), is straight up.
 /// Read as unorm: 8-bit (128, 128, 255) leans by 0.32 degrees.
+#[inline]
 pub fn normal_from_texel<R: Real>(color: [R; 3], strength: R, flip_y: bool) -> [R; 3] {
     let t = color.map(|c| real::<R>(2.0) * c - real(1.0));
     let y = if flip_y { -t[1] } else { t[1] };

@@ -65,10 +65,12 @@ real!(f32);
 real!(f64);
 
 /// A constant of the formula at hand.
+#[inline]
 pub(crate) fn real<R: Real>(x: f64) -> R {
     R::from_f64(x)
 }
 
+#[inline]
 pub(crate) fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
@@ -85,17 +87,20 @@ pub(crate) fn sub<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+#[inline]
 pub(crate) fn scale<R: Real>(a: [R; 3], s: R) -> [R; 3] {
     a.map(|x| x * s)
 }
 
 /// +Z, the direction of a texel that says nothing and of a normal that is not there.
+#[inline]
 pub(crate) fn plus_z<R: Real>() -> [R; 3] {
     [real(0.0), real(0.0), real(1.0)]
 }
 
 /// v / |v|, or `fallback` where v has no direction: zero, NaN, infinite, or of a length outside 3e-19 .. 3e18, the range
 /// of lengths whose square is a normal `f32` (the same for `f64`, so that both take the same branch).
+#[inline]
 pub(crate) fn normalize_or<R: Real>(v: [R; 3], fallback: [R; 3]) -> [R; 3] {
     let length_squared = dot(v, v);
     if length_squared > real(1e-37) && length_squared < real(1e37) {

@@ -146,3 +146,44 @@ fn levels_become_rougher() {
     let error = adjusted_roughness(&grey(1, 2, 2), &flat, Rule::Lean).unwrap_err();
     assert!(error.to_string().contains("2 x 2") && error.to_string().contains("16 x 8"), "{error}");
 }
+
+/// What the levels say is what the rule says of all normals of a footprint, each summed in f64; and a flat map stays as
+/// smooth as it was, also a mirror and whichever way the map leans.
+#[test]
+fn levels_are_the_rule_of_their_footprints() {
+    let mut state = 7_u32;
+    let mut number = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as f32 / (1 << 24) as f32
+    };
+    let (width, height) = (32_usize, 16_usize);
+    let texels: Vec<_> = (0..width * height).map(|_| [number(), number(), 0.5 + 0.5 * number(), 1.0]).collect();
+    let bumpy = Image::new(width as u32, height as u32, Channels::Rgb, Texels::F32(texels.clone())).unwrap();
+    let roughness = Texels::F32((0..width * height).map(|i| [i as f32 / 512.0; 4]).collect());
+    let roughness = Image::new(width as u32, height as u32, Channels::Grey, roughness).unwrap();
+    for rule in Rule::ALL {
+        let levels = adjusted_roughness(&roughness, &bumpy, rule).unwrap();
+        for (k, level) in levels.iter().enumerate().skip(1) {
+            let (sides, places) = ((width.min(1 << k), height.min(1 << k)), (level.width(), level.height()));
+            for (i, j) in (0..places.1).flat_map(|j| (0..places.0).map(move |i| (i, j))) {
+                let covered = (0..sides.0 * sides.1)
+                    .map(|t| (j as usize * sides.1 + t / sides.0) * width + i as usize * sides.0 + t % sides.0);
+                let normals: Vec<_> =
+                    covered.clone().map(|t| unit([0, 1, 2].map(|k| 2.0 * f64::from(texels[t][k]) - 1.0))).collect();
+                let alpha_squared = covered.map(|t| (t as f64 / 512.0).powi(4)).sum::<f64>() / normals.len() as f64;
+                let truth = rule.alpha(alpha_squared.sqrt(), Spread::of(&normals)).sqrt();
+                let found = f64::from(level.texel(i, j)[0]);
+                assert!((found - truth).abs() < 1e-4, "{rule:?} level {k} ({i}, {j}): {found}, not {truth}");
+            }
+        }
+        for lean in [[128, 128, 255], [255, 128, 128], [10, 200, 140], [90, 90, 200]] {
+            let [r, g, b] = lean;
+            let flat = Image::new(32, 9, Channels::Rgb, Texels::U8(vec![[r, g, b, 255]; 288])).unwrap();
+            let mirror = Image::new(1, 1, Channels::Grey, Texels::F32(vec![[0.0; 4]])).unwrap();
+            for level in adjusted_roughness(&mirror, &flat, rule).unwrap() {
+                let Texels::F32(texels) = level.texels() else { panic!("floats expected") };
+                assert!(texels.iter().all(|t| t[0] <= 0.032), "{rule:?} {lean:?}: {:?}", texels[0]);
+            }
+        }
+    }
+}
