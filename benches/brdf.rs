@@ -84,6 +84,9 @@ fn by_hand(p: &Point) -> [f32; 3] {
     Vec3::select(value.abs().cmplt(Vec3::splat(3e38)), value, Vec3::ZERO).to_array()
 }
 
+/// The lobe at one point, one call.
+type Call = fn(&Point) -> [f32; 3];
+
 fn levels() -> impl Iterator<Item = Simd> {
     [Level::Baseline, Level::Avx2, Level::Avx512].into_iter().filter_map(Simd::at)
 }
@@ -93,7 +96,7 @@ fn eval(c: &mut Criterion) {
     let mut group = c.benchmark_group("specular_eval");
     group.throughput(Throughput::Elements(POINTS as u64));
     let mut results = vec![[0.0; 3]; POINTS];
-    let calls: [(&str, fn(&Point) -> [f32; 3]); 2] = [("scalar", scalar), ("glam", by_hand)];
+    let calls: [(&str, Call); 2] = [("scalar", scalar), ("glam", by_hand)];
     for (name, call) in calls {
         group.bench_function(name, |b| {
             b.iter(|| {

@@ -34,14 +34,20 @@ const FILM: [f64; 3] = [1.4, 450.0, 1.5];
 /// A metal's reflectance.
 const F0: [f64; 3] = [0.9, 0.6, 0.3];
 
+/// Calls a form once for each point and adds the results up.
+type Calls<const N: usize> = Box<dyn Fn(&[[f32; N]]) -> f64>;
+
+/// Runs a form over a batch: slices of each argument, and of the results.
+type Batch<const N: usize> = Box<dyn Fn([&[f32]; N], &mut [f32])>;
+
 /// A form in every arithmetic.
 struct Form<const N: usize> {
     name: &'static str,
     single: Box<dyn Fn([f32; N]) -> f32>,
     exact: Box<dyn Fn([f64; N]) -> f64>,
     /// All points, one call each.
-    calls: Box<dyn Fn(&[[f32; N]]) -> f64>,
-    batch: Box<dyn Fn([&[f32]; N], &mut [f32])>,
+    calls: Calls<N>,
+    batch: Batch<N>,
 }
 
 impl<const N: usize> Form<N> {
@@ -408,7 +414,8 @@ mod tests {
             assert!(!own || row.error_max < Some(2e-4), "{row:?}");
         }
         let rms = |method: &str, truth: &str| {
-            let found = rows.iter().find(|row| row.method == method && row.domain.contains(truth));
+            let mut others = rows.iter().filter(|row| !row.domain.ends_with("the same form in f64"));
+            let found = others.find(|row| row.method == method && row.domain.contains(truth));
             found.and_then(|row| row.error_rms).expect("a row")
         };
         assert!(rms("correlated", "for GGX") < 2e-7);
