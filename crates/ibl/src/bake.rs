@@ -18,7 +18,8 @@ use std::f64::consts::LN_2;
 pub const MAX_SIZE: usize = 8192;
 
 /// Texels along an edge of the irradiance cube by default. Where a lamp sets, the light has a kink that a linear mix rounds
-/// off, most where all else is black: by 1.2 % with 64 texels, by 0.4 % with 192.
+/// off, most where all else is black: at the directions of the truth tables by 1.2 % with 64 texels and 0.2 % with 192,
+/// at the worst of 500 random ones by 1.8 % with 192 (a test prints the table).
 const IRRADIANCE_SIZE: usize = 192;
 
 /// The smallest face that the default number of levels ends with: at roughness 1 the light has a kink where a lamp sets,
@@ -227,7 +228,7 @@ impl Quality {
 }
 
 /// Largest slope. Beyond what a lamp does between levels as far apart as they may be there is only noise of black places.
-const STEEPEST: f64 = 16.0;
+pub(crate) const STEEPEST: f32 = 16.0;
 
 /// GGX at roughness 1 is the cosine.
 const DIFFUSE: Lobe = Lobe::Ggx(1.0);
@@ -298,7 +299,7 @@ impl Level {
         let texels = texels(self.size, |face, i, j| {
             let [r, g, b, change] = grid.sample_with_grey(unit(texel_direction(self.size, face, i as f64, j as f64)));
             let slope = f64::from(change) / (f64::from(r + g + b) * LN_2).max(f64::MIN_POSITIVE);
-            [r, g, b, slope.clamp(-STEEPEST, STEEPEST) as f32]
+            [r, g, b, (slope as f32).clamp(-STEEPEST, STEEPEST)]
         });
         let slopes = texels.iter().map(|texel| texel[3]).collect();
         (Cube { size: self.size, texels: texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect() }, slopes)

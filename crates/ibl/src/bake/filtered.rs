@@ -65,7 +65,7 @@ pub fn bake_filtered_by<E>(
         };
         let (cube, change) = if is_mirror(level) { mirror() } else { filtered.next().unwrap_or_else(mirror) };
         if options.level_map == LevelMap::Geometric {
-            let slope = |change: f32| (f64::from(change) * per_level).clamp(-STEEPEST, STEEPEST) as f32;
+            let slope = |change: f32| ((f64::from(change) * per_level) as f32).clamp(-STEEPEST, STEEPEST);
             baked.slope.push(change.into_iter().map(slope).collect());
         }
         baked.radiance.push(cube);

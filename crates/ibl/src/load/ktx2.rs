@@ -4,6 +4,7 @@
 //! whose key/values do not state each level's roughness (see `save::ktx2`) only level 0 is kept.
 
 use super::{Content, Fault, Limits, Picture, StoredLevels, StoredLobe, checked_texels, field, roughness_list};
+use crate::bake::STEEPEST;
 use crate::cube::Cube;
 use crate::equirect::Equirect;
 use crate::ktx2::{
@@ -196,9 +197,8 @@ impl Header {
     }
 }
 
-/// The number, held within what slopes of light can be; 0 for what is no number.
+/// The number, held within what a bake writes as a slope; 0 for what is no number.
 fn finite(slope: f32) -> f32 {
-    const STEEPEST: f32 = 64.0;
     if slope.is_nan() { 0.0 } else { slope.clamp(-STEEPEST, STEEPEST) }
 }
 
