@@ -98,8 +98,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let reflection_dir = rotate_about_y(reflect(-frame.view_dir, frame.normal), view.environment_rotation);
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, rotate_about_y(frame.normal, view.environment_rotation), 0.0);
     radiance += diffuse_environment(diffuse, irradiance) * under_layers;
-    let reflection_lod = lod_geometric(0.5, view.environment_levels);
-    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
+    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(0.5, view.environment_levels));
     radiance += specular_environment(specular, reflection, dfg) * under_layers;
     let transmitted = environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(transmission_direction(frame, transmission.eta), view.environment_rotation), lod_geometric(0.5, view.environment_levels));
     radiance += transmission_environment(transmission, 0.040000003, transmitted, dfg) * under_layers;

@@ -75,8 +75,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, frame.normal, 0.0);
     var radiance = diffuse_environment(diffuse, irradiance);
-    let reflection_lod = lod_geometric(roughness.r, view.environment_levels);
-    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
+    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(roughness.r, view.environment_levels));
     let horizon = horizon_cone(dot(reflection_dir, world_normal), dot(frame.normal, world_normal), frame.n_dot_v, roughness.r);
     radiance += specular_environment(specular, reflection, dfg) * compensation * horizon;
     return vec4f(radiance, 1.0);

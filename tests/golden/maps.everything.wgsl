@@ -99,8 +99,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let reflection_dir = rotate_about_y(mirror_dir, view.environment_rotation);
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, rotate_about_y(frame.normal, view.environment_rotation), 0.0);
     radiance += diffuse_environment(diffuse, irradiance);
-    let reflection_lod = lod_geometric(roughness.r, view.environment_levels);
-    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
+    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(roughness.r, view.environment_levels));
     let horizon = horizon_cone(dot(mirror_dir, world_normal), dot(frame.normal, world_normal), frame.n_dot_v, roughness.r);
     radiance += specular_environment(specular, reflection, dfg) * compensation * horizon;
     let display = srgb_from_linear(tone_map_pbr_neutral(radiance * view.exposure));

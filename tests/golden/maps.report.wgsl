@@ -69,8 +69,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
     let irradiance = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, lod_report(1.0, view.environment_levels)));
     var radiance = diffuse_environment(diffuse, irradiance);
-    let reflection_lod = lod_report(roughness.r, view.environment_levels);
-    let reflection = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod));
+    let reflection = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, lod_report(roughness.r, view.environment_levels)));
     radiance += specular_environment(specular, reflection, dfg);
     return vec4f(radiance, 1.0);
 }

@@ -53,8 +53,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.2);
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
-    let reflection_lod = lod_geometric(0.2, view.environment_levels);
-    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
+    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(0.2, view.environment_levels));
     var radiance = specular_environment(specular, reflection, dfg) * compensation;
     return vec4f(radiance, 1.0);
 }

@@ -63,8 +63,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, frame.normal, 0.0);
     var radiance = diffuse_environment(diffuse, irradiance);
-    let reflection_lod = lod_geometric(parameters.perceptual_roughness, view.environment_levels);
-    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod);
+    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(parameters.perceptual_roughness, view.environment_levels));
     radiance += specular_environment(specular, reflection, dfg);
     return vec4f(radiance, 1.0);
 }

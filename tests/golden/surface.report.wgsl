@@ -86,8 +86,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
     let irradiance = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, lod_report(1.0, view.environment_levels)));
     var radiance = diffuse_environment(diffuse, irradiance) * parameters.occlusion * under_layers;
-    let reflection_lod = lod_report(parameters.perceptual_roughness, view.environment_levels);
-    let reflection = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, reflection_lod));
+    let reflection = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, lod_report(parameters.perceptual_roughness, view.environment_levels)));
     radiance += specular_environment(specular, reflection, dfg) * parameters.occlusion * under_layers;
     let transmitted = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, transmission_direction(frame, transmission.eta), lod_report(parameters.perceptual_roughness, view.environment_levels)));
     radiance += transmission_environment(transmission, dielectric_f0_2, transmitted, dfg) * under_layers;

@@ -55,7 +55,6 @@ const FRAME: &[&str] = &[
     "irradiance",
     "reflection",
     "reflection_dir",
-    "reflection_lod",
     "directional_light",
     "point_light",
     "spot_light",

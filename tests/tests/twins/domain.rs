@@ -54,7 +54,19 @@ impl Numbers {
         Numbers(name.bytes().fold(0x9e37_79b9, |seed, byte| seed.wrapping_mul(0x100_0193) ^ u64::from(byte)))
     }
 
-    pub(crate) fn bits(&mut self) -> u64 {
+    /// Anything that an f32 can be: any bits, the special numbers, or one in [-1, 1].
+    pub(crate) fn anything(&mut self) -> f32 {
+        const SPECIAL: [f32; 11] =
+            [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, -0.0, 1.0, -1.0, f32::MAX, f32::MIN, 1e-40, 0.5];
+        let bits = self.bits();
+        match bits % 4 {
+            0 => f32::from_bits((bits >> 32) as u32),
+            1 => SPECIAL[(bits >> 8) as usize % SPECIAL.len()],
+            _ => (bits >> 40) as f32 / (1 << 24) as f32 * 2.0 - 1.0,
+        }
+    }
+
+    fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

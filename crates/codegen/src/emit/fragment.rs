@@ -77,37 +77,25 @@ pub(crate) fn fragment(parts: &FragmentParts<'_, '_>) -> Result<(Text, Uses), Co
 }
 
 /// The lines after the nodes.
-struct Shading<'s, 'p, 'a> {
-    parts: &'s FragmentParts<'p, 'a>,
-    writer: Writer<'p, 'a>,
+pub(crate) struct Shading<'s, 'p, 'a> {
+    pub(crate) parts: &'s FragmentParts<'p, 'a>,
+    pub(crate) writer: Writer<'p, 'a>,
     lines: Text,
     /// Whether nothing has been added to `radiance` yet.
     first: bool,
     /// What the layers above leave to the coat, and to the base: factors in text.
-    over_coat: &'static str,
-    over_base: &'static str,
+    pub(crate) over_coat: &'static str,
+    pub(crate) over_base: &'static str,
     /// The frame of the coat.
-    coat_frame: &'static str,
-}
-
-/// One lookup of the prefiltered environment by reflection.
-struct Mirror<'m> {
-    /// What its lines are named after.
-    name: &'m str,
-    frame: &'m str,
-    roughness: &'m str,
-    /// The mirror direction in the world.
-    dir: &'m str,
-    /// Whether it fades below the horizon of the geometry.
-    horizon: bool,
+    pub(crate) coat_frame: &'static str,
 }
 
 impl Shading<'_, '_, '_> {
-    fn line(&mut self, line: &str) {
+    pub(crate) fn line(&mut self, line: &str) {
         self.lines.line(&format!("    {line}"));
     }
 
-    fn root(&self, name: &str, otherwise: &str) -> String {
+    pub(crate) fn root(&self, name: &str, otherwise: &str) -> String {
         self.parts
             .program
             .fragment
@@ -115,7 +103,7 @@ impl Shading<'_, '_, '_> {
             .map_or_else(|| otherwise.to_owned(), |id| self.writer.atom(id).to_owned())
     }
 
-    fn add(&mut self, term: &str) {
+    pub(crate) fn add(&mut self, term: &str) {
         if std::mem::take(&mut self.first) {
             self.line(&format!("var radiance = {term};"));
         } else {
@@ -344,149 +332,6 @@ impl Shading<'_, '_, '_> {
             terms.push(format!("{lobe}(frame, {light}.dir, sheen) * {light}.illuminance"));
         }
         Ok(terms)
-    }
-
-    fn environment(&mut self) -> Result<(), CodegenError> {
-        let plan = self.parts.plan;
-        let Some(rotated) = plan.environment else { return Ok(()) };
-        let methods = &self.parts.needs.methods;
-        let roughness = self.root("perceptual_roughness", "0.5");
-        let last_level = methods.is("irradiance", "last_level");
-        let encode =
-            if methods.is("encode", "report") { Some(self.writer.library("gamma_from_linear")?) } else { None };
-        let encoded = |sample: String| encode.map_or_else(|| sample.clone(), |encode| format!("{encode}({sample})"));
-        let lod = self.writer.library(methods.get("level_map").function.unwrap_or("lod_geometric"))?;
-        let mixed =
-            if methods.is("level_map", "hermite") { "environment_sample_hermite" } else { "environment_sample" };
-        let mirror = plan.specular || (plan.reads_irradiance() && last_level);
-        if mirror {
-            let mut mirror = "reflect(-frame.view_dir, frame.normal)".to_owned();
-            if plan.horizon && rotated {
-                self.line(&format!("let mirror_dir = {mirror};"));
-                mirror = "mirror_dir".into();
-            }
-            let direction = self.turned(&mirror, rotated)?;
-            self.line(&format!("let reflection_dir = {direction};"));
-        }
-        let occlusion = if plan.occlusion { format!(" * {}", self.root("occlusion", "1.0")) } else { String::new() };
-        let base = self.over_base;
-        if plan.reads_irradiance() {
-            let irradiance = match methods.get("irradiance").name {
-                "sh2" => {
-                    let direction = self.turned("frame.normal", rotated)?;
-                    let coefficients = self.writer.view(ViewMember::IrradianceSh);
-                    format!("{}({coefficients}, {direction})", self.writer.library("irradiance_sh2")?)
-                }
-                "last_level" => {
-                    let levels = self.writer.view(ViewMember::EnvironmentLevels);
-                    let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
-                    let sample = self.writer.library(mixed)?;
-                    encoded(format!("{sample}({cube}, reflection_dir, {lod}(1.0, {levels}))"))
-                }
-                _ => {
-                    let direction = self.turned("frame.normal", rotated)?;
-                    let cube = self.writer.environment(EnvironmentTexture::IrradianceOverPi);
-                    let sample = self.writer.library("environment_sample")?;
-                    encoded(format!("{sample}({cube}, {direction}, 0.0)"))
-                }
-            };
-            self.line(&format!("let irradiance = {irradiance};"));
-        }
-        if plan.diffuse {
-            let lobe = self.writer.library("diffuse_environment")?;
-            self.add(&format!("{lobe}(diffuse, irradiance){occlusion}{base}"));
-        }
-        if plan.multiscatter {
-            let lobe = self.writer.library("multiscatter_environment")?;
-            self.add(&format!("{lobe}(multiscatter, irradiance){occlusion}{base}"));
-        }
-        if plan.specular {
-            let levels = self.writer.view(ViewMember::EnvironmentLevels);
-            let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
-            let sample = self.writer.library(mixed)?;
-            self.line(&format!("let reflection_lod = {lod}({roughness}, {levels});"));
-            let reflection = encoded(format!("{sample}({cube}, reflection_dir, reflection_lod)"));
-            self.line(&format!("let reflection = {reflection};"));
-            let compensated = if plan.compensation { " * compensation" } else { "" };
-            let dir = if rotated { "mirror_dir" } else { "reflection_dir" };
-            let mirror = Mirror { name: "", frame: "frame", roughness: &roughness, dir, horizon: plan.horizon };
-            let hidden = self.hidden(&mirror)?;
-            let lobe = self.writer.library("specular_environment")?;
-            self.add(&format!("{lobe}(specular, reflection, dfg){compensated}{hidden}{base}"));
-        }
-        if plan.transmission {
-            let (lobe, bend) =
-                (self.writer.library("transmission_environment")?, self.writer.library("transmission_direction")?);
-            let direction = self.turned(&format!("{bend}(frame, transmission.eta)"), rotated)?;
-            let levels = self.writer.view(ViewMember::EnvironmentLevels);
-            let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
-            let sample = self.writer.library(mixed)?;
-            let transmitted = encoded(format!("{sample}({cube}, {direction}, {lod}({roughness}, {levels}))"));
-            self.line(&format!("let transmitted = {transmitted};"));
-            let f0 = self.root("dielectric_f0", "0.0");
-            self.add(&format!("{lobe}(transmission, {f0}, transmitted, dfg){base}"));
-        }
-        if plan.coat {
-            let (frame, roughness) = (self.coat_frame, self.root("coat_roughness", "0.0"));
-            self.line(&format!("let coat_mirror_dir = reflect(-{frame}.view_dir, {frame}.normal);"));
-            let direction = self.turned("coat_mirror_dir", rotated)?;
-            let levels = self.writer.view(ViewMember::EnvironmentLevels);
-            let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
-            let sample = self.writer.library(mixed)?;
-            let reflection = encoded(format!("{sample}({cube}, {direction}, {lod}({roughness}, {levels}))"));
-            self.line(&format!("let coat_reflection = {reflection};"));
-            let stage = &self.parts.program.fragment;
-            let mapped = stage.root("coat_normal").is_some_and(|id| !stage.arena.is_context(id, "world_normal"));
-            let horizon = mapped && !self.parts.program.derived_normal;
-            let mirror = Mirror { name: "coat_", frame, roughness: &roughness, dir: "coat_mirror_dir", horizon };
-            let (hidden, above) = (self.hidden(&mirror)?, self.over_coat);
-            let lobe = self.writer.library("coat_environment")?;
-            self.add(&format!("{lobe}(coat, coat_reflection, coat_dfg){hidden}{above}"));
-        }
-        if plan.sheen {
-            let lobe = self.writer.library("sheen_environment")?;
-            self.add(&format!("{lobe}(sheen, frame.n_dot_v, irradiance){occlusion}"));
-        }
-        Ok(())
-    }
-
-    /// What a reflection is multiplied by where the surface hides it: under occlusion, and below its own horizon.
-    fn hidden(&mut self, mirror: &Mirror<'_>) -> Result<String, CodegenError> {
-        let plan = self.parts.plan;
-        let Mirror { name, frame, roughness, dir, horizon } = *mirror;
-        let mut factors = String::new();
-        if plan.occlusion {
-            let occlusion = self.root("occlusion", "1.0");
-            factors += &match self.parts.needs.methods.get("specular_occlusion").function {
-                Some(function) => {
-                    format!(" * {}({frame}.n_dot_v, {occlusion}, {roughness})", self.writer.library(function)?)
-                }
-                None => format!(" * {occlusion}"),
-            };
-        }
-        if let Some(function) = self.parts.needs.methods.get("horizon").function.filter(|_| horizon) {
-            let function = self.writer.library(function)?;
-            let mut geometric = self.writer.context("world_normal");
-            if plan.double_sided {
-                let side = format!("{name}geometric_normal");
-                self.line(&format!("let {side} = select(-{geometric}, {geometric}, front_facing);"));
-                geometric = side;
-            }
-            self.line(&format!(
-                "let {name}horizon = {function}(dot({dir}, {geometric}), dot({frame}.normal, {geometric}), {frame}.n_dot_v, {roughness});"
-            ));
-            factors += &format!(" * {name}horizon");
-        }
-        Ok(factors)
-    }
-
-    /// A world direction as a direction of the environment.
-    fn turned(&mut self, direction: &str, rotated: bool) -> Result<String, CodegenError> {
-        if !rotated {
-            return Ok(direction.to_owned());
-        }
-        let rotation = self.writer.view(ViewMember::EnvironmentRotation);
-        Ok(format!("{}({direction}, {rotation})", self.writer.library("rotate_about_y")?))
     }
 
     /// Emission, opacity, and the display's coding.

@@ -74,7 +74,7 @@ fn methods(plan: &Plan, needs: &Needs) -> String {
         "dfg" => plan.reads_dfg() || plan.coat,
         "level_map" | "prefilter" => (plan.specular || plan.coat || plan.transmission) && environment,
         "specular_occlusion" => (plan.specular || plan.coat) && plan.occlusion,
-        "horizon" => plan.horizon,
+        "horizon" => plan.horizon || plan.coat_horizon,
         "irradiance" => plan.reads_irradiance(),
         "encode" => environment && needs.methods.is("encode", "report"),
         "height_normals" => plan.height,

@@ -1,5 +1,6 @@
 //! Emission: a program and its plan as WGSL text, with reflection and the table of what comes from where.
 
+mod environment;
 pub(crate) mod expression;
 mod fragment;
 mod header;

@@ -46,6 +46,8 @@ pub(crate) struct Plan {
     pub(crate) occlusion: bool,
     /// Whether reflections from below the geometry's horizon are faded: the shading normal is not the geometry's.
     pub(crate) horizon: bool,
+    /// The same of the coat's normal.
+    pub(crate) coat_horizon: bool,
     /// What opacity does, `Opaque` when it does nothing.
     pub(crate) alpha_mode: AlphaMode,
     pub(crate) height: bool,
@@ -289,7 +291,7 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     if plan.environment.is_some() && !plan.occlusion {
         plan.drop_it("occlusion", "it is 1");
     }
-    decide_horizon(&mut plan, program, needs);
+    decide_horizons(&mut plan, program, needs);
     decide_opacity(&mut plan, &known, document);
     decide_height(&mut plan, &known, needs, lit);
     let mirror = plan.environment.is_some() && (plan.specular || needs.methods.is("irradiance", "last_level"));
@@ -324,14 +326,16 @@ fn compensates(plan: &mut Plan, needs: &Needs, constants: Constants) -> bool {
 }
 
 /// Called before displacement is decided: a displaced surface's normal is that of its geometry.
-fn decide_horizon(plan: &mut Plan, program: &Program<'_>, needs: &Needs) {
-    if plan.environment.is_none() || !plan.specular {
+fn decide_horizons(plan: &mut Plan, program: &Program<'_>, needs: &Needs) {
+    if plan.environment.is_none() {
         return;
     }
     let stage = &program.fragment;
-    let mapped = stage.root("normal").is_some_and(|id| !stage.arena.is_context(id, "world_normal"));
-    plan.horizon = mapped && !program.derived_normal && !needs.methods.is("horizon", "none");
-    if !mapped {
+    let mapped = |socket| stage.root(socket).is_some_and(|id| !stage.arena.is_context(id, "world_normal"));
+    let fades = !program.derived_normal && !needs.methods.is("horizon", "none");
+    plan.horizon = plan.specular && mapped("normal") && fades;
+    plan.coat_horizon = plan.coat && mapped("coat_normal") && fades;
+    if plan.specular && !mapped("normal") {
         plan.drop_it("horizon", "the shading normal is the geometry's: no reflection comes from below");
     }
 }

@@ -1,0 +1,180 @@
+//! The environment's part of the fragment stage: what each lobe reflects of the prefiltered light, lookup by lookup, and what
+//! the surface hides of it.
+
+use crate::CodegenError;
+use crate::emit::expression::{EnvironmentTexture, ViewMember};
+use crate::emit::fragment::Shading;
+
+/// One lookup of the prefiltered environment by reflection.
+struct Mirror<'m> {
+    /// What its lines are named after.
+    name: &'m str,
+    frame: &'m str,
+    roughness: &'m str,
+    /// The mirror direction in the world.
+    dir: &'m str,
+    /// Whether it fades below the horizon of the geometry.
+    horizon: bool,
+}
+
+impl Shading<'_, '_, '_> {
+    /// Adds what each lobe reflects of the environment.
+    pub(crate) fn environment(&mut self) -> Result<(), CodegenError> {
+        let plan = self.parts.plan;
+        if plan.environment.is_none() {
+            return Ok(());
+        }
+        let last_level = self.parts.needs.methods.is("irradiance", "last_level");
+        if plan.specular || (plan.reads_irradiance() && last_level) {
+            let mut mirror = "reflect(-frame.view_dir, frame.normal)".to_owned();
+            if plan.horizon && plan.environment == Some(true) {
+                self.line(&format!("let mirror_dir = {mirror};"));
+                mirror = "mirror_dir".into();
+            }
+            let direction = self.turned(&mirror)?;
+            self.line(&format!("let reflection_dir = {direction};"));
+        }
+        if plan.reads_irradiance() {
+            let irradiance = self.irradiance()?;
+            self.line(&format!("let irradiance = {irradiance};"));
+        }
+        self.base()?;
+        self.layers_above()
+    }
+
+    /// Diffuse light over pi about the normal.
+    fn irradiance(&mut self) -> Result<String, CodegenError> {
+        match self.parts.needs.methods.get("irradiance").name {
+            "sh2" => {
+                let direction = self.turned("frame.normal")?;
+                let coefficients = self.writer.view(ViewMember::IrradianceSh);
+                Ok(format!("{}({coefficients}, {direction})", self.writer.library("irradiance_sh2")?))
+            }
+            "last_level" => self.prefiltered("reflection_dir", "1.0"),
+            _ => {
+                let direction = self.turned("frame.normal")?;
+                let cube = self.writer.environment(EnvironmentTexture::IrradianceOverPi);
+                let sample = self.writer.library("environment_sample")?;
+                self.encoded(format!("{sample}({cube}, {direction}, 0.0)"))
+            }
+        }
+    }
+
+    /// The lobes of the base.
+    fn base(&mut self) -> Result<(), CodegenError> {
+        let plan = self.parts.plan;
+        let (roughness, base) = (self.root("perceptual_roughness", "0.5"), self.over_base);
+        let occlusion = self.occlusion();
+        if plan.diffuse {
+            let lobe = self.writer.library("diffuse_environment")?;
+            self.add(&format!("{lobe}(diffuse, irradiance){occlusion}{base}"));
+        }
+        if plan.multiscatter {
+            let lobe = self.writer.library("multiscatter_environment")?;
+            self.add(&format!("{lobe}(multiscatter, irradiance){occlusion}{base}"));
+        }
+        if plan.specular {
+            let reflection = self.prefiltered("reflection_dir", &roughness)?;
+            self.line(&format!("let reflection = {reflection};"));
+            let compensated = if plan.compensation { " * compensation" } else { "" };
+            let dir = if plan.environment == Some(true) { "mirror_dir" } else { "reflection_dir" };
+            let mirror = Mirror { name: "", frame: "frame", roughness: &roughness, dir, horizon: plan.horizon };
+            let hidden = self.hidden(&mirror)?;
+            let lobe = self.writer.library("specular_environment")?;
+            self.add(&format!("{lobe}(specular, reflection, dfg){compensated}{hidden}{base}"));
+        }
+        if plan.transmission {
+            let bend = self.writer.library("transmission_direction")?;
+            let direction = self.turned(&format!("{bend}(frame, transmission.eta)"))?;
+            let transmitted = self.prefiltered(&direction, &roughness)?;
+            self.line(&format!("let transmitted = {transmitted};"));
+            let (lobe, f0) = (self.writer.library("transmission_environment")?, self.root("dielectric_f0", "0.0"));
+            self.add(&format!("{lobe}(transmission, {f0}, transmitted, dfg){base}"));
+        }
+        Ok(())
+    }
+
+    /// The lobes over it.
+    fn layers_above(&mut self) -> Result<(), CodegenError> {
+        let plan = self.parts.plan;
+        if plan.coat {
+            let (frame, roughness) = (self.coat_frame, self.root("coat_roughness", "0.0"));
+            self.line(&format!("let coat_mirror_dir = reflect(-{frame}.view_dir, {frame}.normal);"));
+            let direction = self.turned("coat_mirror_dir")?;
+            let reflection = self.prefiltered(&direction, &roughness)?;
+            self.line(&format!("let coat_reflection = {reflection};"));
+            let (dir, horizon) = ("coat_mirror_dir", plan.coat_horizon);
+            let hidden = self.hidden(&Mirror { name: "coat_", frame, roughness: &roughness, dir, horizon })?;
+            let (lobe, above) = (self.writer.library("coat_environment")?, self.over_coat);
+            self.add(&format!("{lobe}(coat, coat_reflection, coat_dfg){hidden}{above}"));
+        }
+        if plan.sheen {
+            let (lobe, occlusion) = (self.writer.library("sheen_environment")?, self.occlusion());
+            self.add(&format!("{lobe}(sheen, frame.n_dot_v, irradiance){occlusion}"));
+        }
+        Ok(())
+    }
+
+    /// The factor of what arrives under an occlusion map.
+    fn occlusion(&self) -> String {
+        if self.parts.plan.occlusion { format!(" * {}", self.root("occlusion", "1.0")) } else { String::new() }
+    }
+
+    /// A lookup of the prefiltered environment in a direction of its own.
+    fn prefiltered(&mut self, direction: &str, roughness: &str) -> Result<String, CodegenError> {
+        let methods = &self.parts.needs.methods;
+        let hermite = methods.is("level_map", "hermite");
+        let sample = self.writer.library(if hermite { "environment_sample_hermite" } else { "environment_sample" })?;
+        let lod = self.writer.library(methods.get("level_map").function.unwrap_or("lod_geometric"))?;
+        let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
+        let levels = self.writer.view(ViewMember::EnvironmentLevels);
+        self.encoded(format!("{sample}({cube}, {direction}, {lod}({roughness}, {levels}))"))
+    }
+
+    /// A reflection as the report codes it, or as it is.
+    fn encoded(&mut self, sample: String) -> Result<String, CodegenError> {
+        if !self.parts.needs.methods.is("encode", "report") {
+            return Ok(sample);
+        }
+        Ok(format!("{}({sample})", self.writer.library("gamma_from_linear")?))
+    }
+
+    /// What a reflection is multiplied by where the surface hides it: under occlusion, and below its own horizon.
+    fn hidden(&mut self, mirror: &Mirror<'_>) -> Result<String, CodegenError> {
+        let plan = self.parts.plan;
+        let Mirror { name, frame, roughness, dir, horizon } = *mirror;
+        let mut factors = String::new();
+        if plan.occlusion {
+            let occlusion = self.root("occlusion", "1.0");
+            factors += &match self.parts.needs.methods.get("specular_occlusion").function {
+                Some(function) => {
+                    format!(" * {}({frame}.n_dot_v, {occlusion}, {roughness})", self.writer.library(function)?)
+                }
+                None => format!(" * {occlusion}"),
+            };
+        }
+        if let Some(function) = self.parts.needs.methods.get("horizon").function.filter(|_| horizon) {
+            let function = self.writer.library(function)?;
+            let mut geometric = self.writer.context("world_normal");
+            if plan.double_sided {
+                let side = format!("{name}geometric_normal");
+                self.line(&format!("let {side} = select(-{geometric}, {geometric}, front_facing);"));
+                geometric = side;
+            }
+            self.line(&format!(
+                "let {name}horizon = {function}(dot({dir}, {geometric}), dot({frame}.normal, {geometric}), {frame}.n_dot_v, {roughness});"
+            ));
+            factors += &format!(" * {name}horizon");
+        }
+        Ok(factors)
+    }
+
+    /// A world direction as a direction of the environment.
+    fn turned(&mut self, direction: &str) -> Result<String, CodegenError> {
+        if self.parts.plan.environment != Some(true) {
+            return Ok(direction.to_owned());
+        }
+        let rotation = self.writer.view(ViewMember::EnvironmentRotation);
+        Ok(format!("{}({direction}, {rotation})", self.writer.library("rotate_about_y")?))
+    }
+}
