@@ -1,9 +1,13 @@
-//! GGX specular lobe times cosine: batches, the scalar function, and what one would write by hand with glam. The same
-//! 4,096 points for all; they and the results lie in the L2 cache. `peers/mitsuba_brdf.py` sets Mitsuba 3 beside it.
+//! GGX specular lobe times cosine: batches, the scalar function, and what one would write by hand with glam; then samples of
+//! it, and the diffuse lobe. The same 4,096 points for all; they and the results lie in the L2 cache.
+//! `peers/mitsuba_brdf.py` sets Mitsuba 3 beside it.
+//!
+//! `scalar` and `glam` are one call a point. `scalar_columns` is the scalar function in a loop over the very slices that the
+//! batches read; `scalar_inlined` the same over an array of points, which the compiler can widen to the 4 lanes of SSE2.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::Vec3;
-use halfvector_brdf::batch::kernels::{SpecularEval, SpecularSample};
+use halfvector_brdf::batch::kernels::{DiffuseEval, SpecularEval, SpecularSample};
 use halfvector_brdf::batch::{Kernel, Level, Simd};
 use halfvector_brdf::frame::frame_from_normal;
 use halfvector_brdf::lobe_specular::{Specular, specular_eval};
@@ -107,7 +111,6 @@ fn eval(c: &mut Criterion) {
             });
         });
     }
-    // The loop around an inlined call is the compiler's to widen, to the 4 lanes of the baseline.
     group.bench_function("scalar_inlined", |b| {
         b.iter(|| {
             for (p, result) in points.iter().zip(&mut results) {
@@ -126,7 +129,24 @@ fn eval(c: &mut Criterion) {
     let [vx, vy, vz] = view.each_ref().map(|v| &v[..]);
     let [lx, ly, lz] = light.each_ref().map(|v| &v[..]);
     let [r, g, b] = f0.each_ref().map(|v| &v[..]);
+    let mut columns = [(); 3].map(|()| vec![0.0; POINTS]);
+    group.bench_function("scalar_columns", |bencher| {
+        bencher.iter(|| {
+            for i in 0..POINTS {
+                let frame = frame_from_normal([0.0, 0.0, 1.0], [vx[i], vy[i], vz[i]]);
+                let specular = Specular { f0: [r[i], g[i], b[i]], f90: [1.0; 3], alpha: alpha[i] };
+                let value = specular_eval(frame, [lx[i], ly[i], lz[i]], specular);
+                axis.iter().for_each(|&k| columns[k][i] = value[k]);
+            }
+            black_box(&mut columns);
+        });
+    });
     batch(&mut group, &SpecularEval, [vx, vy, vz, lx, ly, lz, &alpha, r, g, b]);
+    group.finish();
+
+    let mut group = c.benchmark_group("diffuse_eval");
+    group.throughput(Throughput::Elements(POINTS as u64));
+    batch(&mut group, &DiffuseEval, [vx, vy, vz, lx, ly, lz, &alpha, r, g, b]);
     group.finish();
 
     let mut group = c.benchmark_group("specular_sample");

@@ -89,7 +89,7 @@ subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
 peer = [max(pair) for pair in zip(before, best())]
 for i, group in enumerate(("specular_eval", "specular_sample")):
     print(f"{group}: Mitsuba {mi.__version__} {peer[i]:.0f} M/s")
-    for name in ("scalar", "glam", "scalar_inlined", "batch/Baseline", "batch/Avx2", "batch/Avx512"):
+    for name in ("scalar", "glam", "scalar_columns", "scalar_inlined", "batch/Baseline", "batch/Avx2", "batch/Avx512"):
         try:
             rate = ours(group, name)
         except FileNotFoundError:

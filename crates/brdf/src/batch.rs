@@ -27,8 +27,12 @@ use crate::lanes::Lane;
 
 pub mod kernels;
 
-/// Elements of a block: two vectors of AVX-512. Longer ones gain nothing, shorter ones cannot hide latency.
-const BLOCK: usize = 32;
+/// Elements of a block, two vectors: longer ones run out of registers, shorter ones cannot hide latency.
+const BASELINE_BLOCK: usize = 8;
+#[cfg(target_arch = "x86_64")]
+const AVX2_BLOCK: usize = 16;
+#[cfg(target_arch = "x86_64")]
+const AVX512_BLOCK: usize = 32;
 
 /// Whether the instruction sets that every build for this target may use have a fused multiply-add.
 const BASELINE_FUSED: bool = cfg!(any(target_arch = "aarch64", target_feature = "fma"));
@@ -132,11 +136,17 @@ impl Simd {
             }
         }
         match self.arch {
-            Arch::Baseline => blocks::<BASELINE_FUSED, K, I, O>(kernel, inputs, outputs, expected),
+            Arch::Baseline => {
+                blocks::<BASELINE_FUSED, false, BASELINE_BLOCK, K, I, O>(kernel, inputs, outputs, expected)
+            }
             #[cfg(target_arch = "x86_64")]
-            Arch::Avx2(v3) => v3.vectorize(Job { kernel, inputs, outputs, len: expected }),
+            Arch::Avx2(v3) => {
+                v3.vectorize(Job::<_, false, AVX2_BLOCK, _, _> { kernel, inputs, outputs, len: expected })
+            }
             #[cfg(target_arch = "x86_64")]
-            Arch::Avx512(v4) => v4.vectorize(Job { kernel, inputs, outputs, len: expected }),
+            Arch::Avx512(v4) => {
+                v4.vectorize(Job::<_, true, AVX512_BLOCK, _, _> { kernel, inputs, outputs, len: expected })
+            }
         }
         Ok(())
     }
@@ -144,7 +154,7 @@ impl Simd {
 
 /// What `pulp` compiles once for each instruction set.
 #[cfg(target_arch = "x86_64")]
-struct Job<'a, K, const I: usize, const O: usize> {
+struct Job<'a, K, const WIDE: bool, const BLOCK: usize, const I: usize, const O: usize> {
     kernel: &'a K,
     inputs: [&'a [f32]; I],
     outputs: [&'a mut [f32]; O],
@@ -152,57 +162,64 @@ struct Job<'a, K, const I: usize, const O: usize> {
 }
 
 #[cfg(target_arch = "x86_64")]
-impl<K: Kernel<I, O>, const I: usize, const O: usize> pulp::NullaryFnOnce for Job<'_, K, I, O> {
+impl<K: Kernel<I, O>, const WIDE: bool, const BLOCK: usize, const I: usize, const O: usize> pulp::NullaryFnOnce
+    for Job<'_, K, WIDE, BLOCK, I, O>
+{
     type Output = ();
     #[inline(always)]
     fn call(self) {
-        blocks::<true, K, I, O>(self.kernel, self.inputs, self.outputs, self.len);
+        blocks::<true, WIDE, BLOCK, K, I, O>(self.kernel, self.inputs, self.outputs, self.len);
     }
 }
 
 #[inline(always)]
-fn blocks<const FUSED: bool, K: Kernel<I, O>, const I: usize, const O: usize>(
+fn blocks<const FUSED: bool, const WIDE: bool, const BLOCK: usize, K: Kernel<I, O>, const I: usize, const O: usize>(
     kernel: &K,
     inputs: [&[f32]; I],
     outputs: [&mut [f32]; O],
     len: usize,
 ) {
-    let mut start = 0;
-    while start + BLOCK <= len {
+    // As arrays of blocks, so that next to nothing is left to check at a block.
+    // Loops, not `array::map`, which is not inlined where the caller has more instructions than it.
+    let count = len / BLOCK;
+    let mut columns = [&[][..]; I];
+    for i in 0..I {
+        columns[i] = &inputs[i].as_chunks::<BLOCK>().0[..count];
+    }
+    #[expect(clippy::needless_range_loop, reason = "k is a place in every column, of inputs and outputs")]
+    for k in 0..count {
         let mut x = [&[0.0; BLOCK]; I];
         for i in 0..I {
-            if let Some(block) = inputs[i][start..].first_chunk() {
-                x[i] = block;
-            }
+            x[i] = &columns[i][k];
         }
-        let y = block::<FUSED, K, I, O>(kernel, x);
+        let y = block::<FUSED, WIDE, BLOCK, K, I, O>(kernel, x);
         for o in 0..O {
-            outputs[o][start..start + BLOCK].copy_from_slice(&y[o]);
+            outputs[o].as_chunks_mut::<BLOCK>().0[k] = y[o];
         }
-        start += BLOCK;
     }
-    if start < len {
-        let rest = len - start;
+    if count * BLOCK < len {
         let mut x = [[0.0; BLOCK]; I];
         for i in 0..I {
-            x[i][..rest].copy_from_slice(&inputs[i][start..len]);
+            let rest = inputs[i].as_chunks::<BLOCK>().1;
+            x[i][..rest.len()].copy_from_slice(rest);
         }
-        let y = block::<FUSED, K, I, O>(kernel, x.each_ref());
+        let block = block::<FUSED, WIDE, BLOCK, K, I, O>(kernel, x.each_ref());
         for o in 0..O {
-            outputs[o][start..len].copy_from_slice(&y[o][..rest]);
+            let rest = outputs[o].as_chunks_mut::<BLOCK>().1;
+            rest.copy_from_slice(&block[o][..rest.len()]);
         }
     }
 }
 
 /// The loop that LLVM widens. Its results lie in an array of its own, which no input can overlap.
 #[inline(always)]
-fn block<const FUSED: bool, K: Kernel<I, O>, const I: usize, const O: usize>(
+fn block<const FUSED: bool, const WIDE: bool, const BLOCK: usize, K: Kernel<I, O>, const I: usize, const O: usize>(
     kernel: &K,
     x: [&[f32; BLOCK]; I],
 ) -> [[f32; BLOCK]; O] {
     let mut y = [[0.0; BLOCK]; O];
     for k in 0..BLOCK {
-        let mut input = [Lane::<FUSED>(0.0); I];
+        let mut input = [Lane::<FUSED, WIDE>(0.0); I];
         for i in 0..I {
             input[i] = Lane(x[i][k]);
         }

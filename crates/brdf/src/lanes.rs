@@ -11,6 +11,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// One `f32` among those that are computed side by side.
 ///
 /// `FUSED` says whether `a * b + c` may be one instruction. It must be false where the CPU has none: it would be a call.
+/// `WIDE` says that vectors have 16 lanes: a divider takes two turns for one, so that some roots are taken by products.
 ///
 /// Sums, products, quotients, square roots, comparisons, minimum and maximum are those of `f32`. The others are of this
 /// crate; their errors were measured against f64 over every 997th `f32` of the domain, fused or not:
@@ -22,10 +23,11 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// | `powf` | base >= 0 (NaN below), any power | <= 2 ulp |
 /// | `sin_cos` | angles within +-8192 | <= 1.2e-7 absolute |
 /// | `acos` | -1..1 (NaN outside) | <= 2 ulp |
+/// | `sqrt_by_products` where wide | 0, 1e-37..3e38 | <= 2 ulp |
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub struct Lane<const FUSED: bool>(pub f32);
+pub struct Lane<const FUSED: bool, const WIDE: bool = false>(pub f32);
 
-impl<const FUSED: bool> Add for Lane<FUSED> {
+impl<const FUSED: bool, const WIDE: bool> Add for Lane<FUSED, WIDE> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -33,7 +35,7 @@ impl<const FUSED: bool> Add for Lane<FUSED> {
     }
 }
 
-impl<const FUSED: bool> Sub for Lane<FUSED> {
+impl<const FUSED: bool, const WIDE: bool> Sub for Lane<FUSED, WIDE> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -41,7 +43,7 @@ impl<const FUSED: bool> Sub for Lane<FUSED> {
     }
 }
 
-impl<const FUSED: bool> Mul for Lane<FUSED> {
+impl<const FUSED: bool, const WIDE: bool> Mul for Lane<FUSED, WIDE> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -49,7 +51,7 @@ impl<const FUSED: bool> Mul for Lane<FUSED> {
     }
 }
 
-impl<const FUSED: bool> Div for Lane<FUSED> {
+impl<const FUSED: bool, const WIDE: bool> Div for Lane<FUSED, WIDE> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -57,7 +59,7 @@ impl<const FUSED: bool> Div for Lane<FUSED> {
     }
 }
 
-impl<const FUSED: bool> Neg for Lane<FUSED> {
+impl<const FUSED: bool, const WIDE: bool> Neg for Lane<FUSED, WIDE> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -65,7 +67,7 @@ impl<const FUSED: bool> Neg for Lane<FUSED> {
     }
 }
 
-impl<const FUSED: bool> Real for Lane<FUSED> {
+impl<const FUSED: bool, const WIDE: bool> Real for Lane<FUSED, WIDE> {
     type Mask = bool;
     const ZERO: Self = Self(0.0);
     const ONE: Self = Self(1.0);
@@ -77,6 +79,10 @@ impl<const FUSED: bool> Real for Lane<FUSED> {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self(Real::sqrt(self.0))
+    }
+    #[inline(always)]
+    fn sqrt_by_products(self) -> Self {
+        if WIDE { elementary::sqrt_by_products(self) } else { self.sqrt() }
     }
     #[inline(always)]
     fn abs(self) -> Self {

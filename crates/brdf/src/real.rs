@@ -34,6 +34,12 @@ pub trait Real:
     fn of(x: f64) -> Self;
     /// Square root; NaN below 0.
     fn sqrt(self) -> Self;
+    /// Square root of a number from 1e-37, or of 0, within 2 ulp; any other number gives any number. In lanes it does without
+    /// the divider, for which vector CPUs have no wide unit: for functions that take several roots of one element.
+    #[inline(always)]
+    fn sqrt_by_products(self) -> Self {
+        self.sqrt()
+    }
     /// Absolute value.
     fn abs(self) -> Self;
     /// 2 to this power.

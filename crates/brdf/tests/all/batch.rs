@@ -1,6 +1,8 @@
 //! Batches: accurate as the scalar functions are, on every instruction set of the machine, at every length.
 
-use halfvector_brdf::batch::kernels::{SampleSlices, SpecularEval, SpecularPdf, SpecularSample};
+use halfvector_brdf::batch::kernels::{
+    DiffuseEval, DiffuseSample, SampleSlices, SpecularEval, SpecularPdf, SpecularSample,
+};
 use halfvector_brdf::batch::{Kernel, LengthMismatch, Level, Simd};
 use halfvector_brdf::frame::frame_from_normal;
 use halfvector_brdf::lobe_specular::{Specular, specular_eval};
@@ -67,6 +69,44 @@ fn densities_are_the_table_s() {
                 let error = (f64::from(pdf) / row.number("pdf_vndf_l") - 1.0).abs();
                 assert!(error <= tolerance, "row {}: error {error:.1e} of {tolerance:.1e}", row.text("id"));
             }
+        }
+    }
+}
+
+/// The lobe has no half vector to lose: only v.l, from |v + l|, counts 1 / max(n.v, n.l) times.
+#[test]
+fn diffuse_is_the_table_s() {
+    for table in points() {
+        for simd in levels() {
+            let names = ["vx", "vy", "vz", "lx", "ly", "lz", "roughness", "rho", "rho", "rho"];
+            let [value, ..] = run(simd, &DiffuseEval, &columns(&table, names));
+            let mut worst = 0.0_f64;
+            for (row, value) in table.rows().zip(value) {
+                let n_dot_l = row.number("nol");
+                let bound = (row.number("rho") / std::f64::consts::PI * n_dot_l).max(1e-9)
+                    * (1.0 + row.number("roughness") / n_dot_l.max(row.number("nov")));
+                worst = worst.max((f64::from(value) - row.number("eon_approx") * n_dot_l).abs() / bound);
+            }
+            println!("{:?}: diffuse, worst {worst:.1e}", simd.level());
+            assert!(worst < 4e-6, "{worst}");
+        }
+    }
+}
+
+#[test]
+fn diffuse_samples_are_the_scalar_s() {
+    let [.., u0, u1] = draws(5_003);
+    for simd in levels() {
+        let [mut x, mut y, mut z, mut pdf] = [const { Vec::new() }; 4].map(|v: Vec<f32>| {
+            let mut v = v;
+            v.resize(u0.len(), -2.0);
+            v
+        });
+        simd.diffuse_sample([&u0, &u1], [&mut x, &mut y, &mut z], &mut pdf).unwrap();
+        for i in 0..u0.len() {
+            let truth = DiffuseSample.call([u0[i], u1[i]].map(f64::from));
+            let got = [x[i], y[i], z[i], pdf[i]].map(f64::from);
+            assert!((0..4).all(|k| (got[k] - truth[k]).abs() < 5e-7), "{got:?}, {truth:?}");
         }
     }
 }
@@ -228,8 +268,10 @@ proptest! {
     fn evaluation_of_any_bits_is_finite(x in prop::collection::vec(any_bits(), 10)) {
         for simd in levels() {
             let inputs: [Vec<f32>; 10] = std::array::from_fn(|i| vec![x[i]; 3]);
-            let values: [Vec<f32>; 3] = run(simd, &SpecularEval, &inputs);
-            prop_assert!(values.iter().flatten().all(|v| v.is_finite()), "{values:?}");
+            for values in [run(simd, &SpecularEval, &inputs), run(simd, &DiffuseEval, &inputs)] {
+                let values: [Vec<f32>; 3] = values;
+                prop_assert!(values.iter().flatten().all(|v| v.is_finite() && *v >= 0.0), "{values:?}");
+            }
         }
     }
 }
