@@ -10,6 +10,12 @@ fn normal_from_texel_snorm(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
     return normalize_or(vec3f(t.x * strength, y * strength, t.z), vec3f(0.0, 0.0, 1.0));
 }
 
+/// The colour that a normal has in a map whose zero is code 128: (127 n + 128) / 255. The inverse of
+/// `normal_from_texel_snorm` with strength 1; nodes that write a texel for others to read call it where that is the decode.
+fn texel_from_normal_snorm(n_tangent: vec3f) -> vec3f {
+    return (127.0 * n_tangent + 128.0) / 255.0;
+}
+
 /// The tangent-space unit normal of a texel with x and y only (BC5, ATI2, 3Dc; red and green), blue not read:
 ///   (x, y) = 2 c - 1,   z = sqrt(max(0, 1 - x^2 - y^2))
 /// Where compression has made x^2 + y^2 > 1, z is 0 and the result lies on the horizon, made unit. x and y are scaled by

@@ -187,6 +187,38 @@ fn normals_from_heights_are_the_relief() {
     assert!(mean < 0.3 && max < 3.0, "{mean} {max}");
 }
 
+/// Texels (128, 128, 255) of maps that are centred on 128 are straight up, alone and through every blend. The map is one
+/// texel, row "1x1 mip" of the catalogue.
+#[test]
+fn neutral_snorm_texels_are_flat_through_blends() {
+    let Some(renderer) = renderer() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let flat = image::RgbImage::from_pixel(1, 1, image::Rgb([128, 128, 255]));
+    flat.save(folder.path().join("height.png")).expect("the map is saved");
+    let blends = ["", "_rnm", "_whiteout", "_udn", "_linear"].map(|kind| format!("textures/normal_blend{kind}"));
+    for between in [None].into_iter().chain(blends.iter().map(Some)) {
+        let mut document = plaster();
+        document.nodes.insert("image".into(), Node::new("textures/image").with("image", height_image()));
+        document.nodes.insert("map".into(), Node::new("textures/normal_map"));
+        if let Some(blend) = between {
+            document.nodes.insert("both".into(), Node::new(blend.as_str()));
+            link(&mut document, ("image", "color"), ("both", "base"));
+            link(&mut document, ("image", "color"), ("both", "detail"));
+            link(&mut document, ("both", "out"), ("map", "color"));
+        } else {
+            link(&mut document, ("image", "color"), ("map", "color"));
+        }
+        link(&mut document, ("map", "out"), ("surface", "normal"));
+        let mut scene = scene(square(1), document, folder.path(), Mat4::IDENTITY);
+        for (method, leans) in [("snorm", false), ("unorm", true)] {
+            scene.methods.set("normal_decode", method).expect("a method of the list");
+            let found = normals(&renderer, scene.clone(), front_lights())[(SIZE * SIZE / 2 + SIZE / 2) as usize];
+            let angle = found.expect("the square is in the middle").angle_between(DVec3::Z).to_degrees();
+            assert!(if leans { angle > 0.2 } else { angle < 0.02 }, "{method}, {between:?}: {angle} degrees");
+        }
+    }
+}
+
 /// A sheet with a normal map seen from behind: the relief's other side, every bump a dent.
 #[test]
 fn the_back_of_a_mapped_sheet_is_its_other_side() {

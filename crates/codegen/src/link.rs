@@ -17,6 +17,10 @@ const TRANSFORM_FILE: &str = "entry/transform.wgsl";
 /// the shading is put together.
 const EXCHANGED_TERMS: [&str; 5] = ["d", "v", "fresnel", "diffuse", "normal_decode"];
 
+/// Functions that follow a chosen method: what writes the texels of a normal map has to be what reads them.
+const FOLLOWERS: [(&str, &str, &str); 1] =
+    [("normal_from_texel_snorm", "texel_from_normal", "texel_from_normal_snorm")];
+
 /// The items of a library by name, and what was found out about them.
 pub(crate) struct Index {
     files: Vec<SourceFile>,
@@ -77,16 +81,22 @@ pub(crate) struct Linked {
     pub(crate) text: String,
 }
 
-/// What stands for what: the default's function of a term, and the chosen method's.
+/// What stands for what: the default's function of a term, and the chosen method's; and what follows from it.
 pub(crate) fn exchanged(methods: &Methods) -> BTreeMap<&'static str, &'static str> {
-    EXCHANGED_TERMS
+    let mut exchanged: BTreeMap<_, _> = EXCHANGED_TERMS
         .iter()
         .filter_map(|name| {
             let default = halfvector_graph::method::term(name)?.methods.first()?.function?;
             let chosen = methods.get(name).function?;
             (default != chosen).then_some((default, chosen))
         })
-        .collect()
+        .collect();
+    for (method, default, follower) in FOLLOWERS {
+        if exchanged.values().any(|chosen| *chosen == method) {
+            exchanged.insert(default, follower);
+        }
+    }
+    exchanged
 }
 
 impl Index {

@@ -24,6 +24,7 @@ pub mod derivative;
 pub mod frame;
 pub mod height;
 pub mod image;
+mod levels;
 pub mod lost_length;
 pub mod mip;
 pub mod normal;

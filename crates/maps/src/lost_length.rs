@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use crate::coding::{code_u8, code_u16};
 use crate::image::{Channels, Image, Texels};
-use crate::mip::levels;
+use crate::levels::{Block, LANES, Level, Plain, filled, levels};
+use crate::mip::{unit_u8, unit_u16};
 use crate::normal::normal_from_texel;
 use crate::pack::channel;
 use crate::real::{Real, normalize_or, real};
@@ -156,29 +157,36 @@ pub fn adjusted_roughness(roughness: &Image, normal: &Image, rule: Rule) -> Resu
         let at = |i: usize| alpha_squared(roughness.texel((i % width) as u32, (i / width) as u32)[0]);
         ((0..width * height).into_par_iter().with_min_len(1 << 14).map(at).collect(), width)
     };
-    let alphas = |y: usize| alphas[y * stride..][..width].iter();
     let perceptual = |[x, y, z, sx, sy, squares, alpha_squared]: [f32; 7]| {
         let spread = Spread::from_moments_f32([x, y, z, sx, sy, squares]);
         rule.alpha(f64::from(alpha_squared).sqrt(), spread).sqrt() as f32
     };
+    let alphas = |x: usize, y: usize| &alphas[y * stride..][x..width];
     let smaller = match normal.texels() {
-        Texels::U8(texels) => {
-            let read = |c: u8| f32::from(c) * (1.0 / 255.0);
-            let row = |y: usize| texels[y * width..][..width].iter().zip(alphas(y));
-            levels(width, height, |y| row(y).map(|(t, &a)| texel_moments(t.map(read), a)), perceptual)
-        }
-        Texels::U16(texels) => {
-            let read = |c: u16| f32::from(c) * (1.0 / 65_535.0);
-            let row = |y: usize| texels[y * width..][..width].iter().zip(alphas(y));
-            levels(width, height, |y| row(y).map(|(t, &a)| texel_moments(t.map(read), a)), perceptual)
-        }
-        Texels::F32(texels) => {
-            let row = |y: usize| texels[y * width..][..width].iter().zip(alphas(y));
-            levels(width, height, |y| row(y).map(|(&t, &a)| texel_moments(t, a)), perceptual)
-        }
+        Texels::U8(texels) => all_levels([width, height], texels, alphas, unit_u8, perceptual),
+        Texels::U16(texels) => all_levels([width, height], texels, alphas, unit_u16, perceptual),
+        Texels::F32(texels) => all_levels([width, height], texels, alphas, |t| t, perceptual),
     };
     stored.extend(smaller.iter().map(|level| grey(&level.texels, level.width, level.height, roughness)));
     Ok(stored)
+}
+
+/// The levels below `normals`, whose texels `read` brings to 0..1; `alphas` are the plane of alpha^2 from a column and row on.
+fn all_levels<'a, T: Copy + Default + Sync>(
+    [width, height]: [usize; 2],
+    normals: &[[T; 4]],
+    alphas: impl Fn(usize, usize) -> &'a [f32] + Sync,
+    read: impl Fn([T; 4]) -> [f32; 4] + Sync,
+    perceptual: impl Fn([f32; 7]) -> f32 + Sync,
+) -> Vec<Level<f32>> {
+    let fill = |x: usize, y: usize, block: &mut Block<7>| {
+        let mut alpha_squared = [0.0; LANES];
+        let row = alphas(x, y);
+        let count = row.len().min(LANES);
+        alpha_squared[..count].copy_from_slice(&row[..count]);
+        filled(&normals[y * width..][x..width], block, |i, t| texel_moments(read(t), alpha_squared[i]));
+    };
+    levels(&Plain, [width, height], fill, perceptual)
 }
 
 /// The numbers whose means the rules need, of a unit normal: the normal, its slopes, and the sum of their squares.

@@ -5,12 +5,10 @@
 //! level has the mean of the first. Averages go from level to level in f32 and are rounded only when they are stored.
 //! Does not filter wider than a box, and does not wrap.
 
-use pulp::{Arch, NullaryFnOnce};
-use rayon::prelude::*;
-
 use crate::coding::{code_u8, code_u16, srgb8};
 use crate::color::{linear_from_srgb, srgb_from_linear};
 use crate::image::{Image, Texels};
+use crate::levels::{Block, ByAlpha, Plain, filled, levels};
 use crate::real::normalize_or;
 
 /// How the red, green and blue of an image are encoded. Alpha is linear always.
@@ -93,12 +91,19 @@ pub fn smaller_levels(image: &Image, color_space: ColorSpace, kind: MapKind) -> 
 }
 
 #[inline(always)]
-fn unit_u8(texel: [u8; 4]) -> [f32; 4] {
-    texel.map(|c| f32::from(c) * (1.0 / 255.0))
+pub(crate) fn unit_u8(texel: [u8; 4]) -> [f32; 4] {
+    bytes(texel).map(|c| c as f32 * (1.0 / 255.0))
+}
+
+/// The bytes by shifts of a word, which become vectors where loads of every fourth byte do not.
+#[inline(always)]
+fn bytes(texel: [u8; 4]) -> [u32; 4] {
+    let word = u32::from_le_bytes(texel);
+    [word & 255, word >> 8 & 255, word >> 16 & 255, word >> 24]
 }
 
 #[inline(always)]
-fn unit_u16(texel: [u16; 4]) -> [f32; 4] {
+pub(crate) fn unit_u16(texel: [u16; 4]) -> [f32; 4] {
     texel.map(|c| f32::from(c) * (1.0 / 65_535.0))
 }
 
@@ -132,69 +137,6 @@ fn normal_codes([x, y, z, a]: [f32; 4]) -> [f32; 4] {
     [r, g, b, a]
 }
 
-/// What texels of a level become in the next.
-pub(crate) trait Average: Copy + Send + Sync {
-    /// What buffers hold before they are filled.
-    const ZERO: Self;
-    /// Of four alike.
-    fn of_four(quad: [Self; 4]) -> Self;
-    /// Of parts whose weights sum to 1.
-    fn of_parts(parts: impl Iterator<Item = (f32, Self)>) -> Self;
-}
-
-/// Each number has its own mean.
-impl<const N: usize> Average for [f32; N] {
-    const ZERO: Self = [0.0; N];
-
-    #[inline(always)]
-    fn of_four([a, b, c, d]: [Self; 4]) -> Self {
-        std::array::from_fn(|k| (0.25 * a[k] + 0.25 * b[k]) + (0.25 * c[k] + 0.25 * d[k]))
-    }
-
-    fn of_parts(parts: impl Iterator<Item = (f32, Self)>) -> Self {
-        parts.fold(Self::ZERO, |sum, (weight, part)| std::array::from_fn(|k| sum[k] + weight * part[k]))
-    }
-}
-
-/// Red, green and blue are weighted by alpha; where there is none, the mean is plain.
-#[derive(Clone, Copy)]
-struct Weighted([f32; 4]);
-
-impl Weighted {
-    /// The plain mean, or the sum of the colours times their alphas over the mean alpha.
-    #[inline(always)]
-    fn chosen(mean: [f32; 4], visible: [f32; 3]) -> Self {
-        let alpha = mean[3];
-        if alpha > 0.0 {
-            let [r, g, b] = visible.map(|c| c / alpha);
-            Self([r, g, b, alpha])
-        } else {
-            Self(mean)
-        }
-    }
-}
-
-impl Average for Weighted {
-    const ZERO: Self = Self([0.0; 4]);
-
-    #[inline(always)]
-    fn of_four(quad: [Self; 4]) -> Self {
-        let [a, b, c, d] = quad.map(|Self(texel)| texel);
-        let weights = [a[3], b[3], c[3], d[3]].map(|alpha| 0.25 * alpha);
-        let visible = |k: usize| (weights[0] * a[k] + weights[1] * b[k]) + (weights[2] * c[k] + weights[3] * d[k]);
-        Self::chosen(<[f32; 4]>::of_four([a, b, c, d]), [visible(0), visible(1), visible(2)])
-    }
-
-    fn of_parts(parts: impl Iterator<Item = (f32, Self)>) -> Self {
-        let (mut mean, mut visible) = ([0.0; 4], [0.0; 3]);
-        for (weight, Self(part)) in parts {
-            mean.iter_mut().zip(part).for_each(|(sum, c)| *sum += weight * c);
-            visible.iter_mut().zip(part).for_each(|(sum, c)| *sum += weight * part[3] * c);
-        }
-        Self::chosen(mean, visible)
-    }
-}
-
 /// All levels below `first`: `read` brings a texel to what is averaged, `store` back.
 fn all_levels<T: Copy + Default + Send + Sync>(
     (width, height, weighted): (usize, usize, bool),
@@ -203,180 +145,13 @@ fn all_levels<T: Copy + Default + Send + Sync>(
     store: impl Fn([f32; 4]) -> [T; 4] + Sync,
     texels: impl Fn(Vec<[T; 4]>) -> Texels,
 ) -> Vec<(usize, usize, Texels)> {
-    let row = |y: usize| first[y * width..][..width].iter();
+    let fill = |x: usize, y: usize, block: &mut Block<4>| {
+        filled(&first[y * width..][x..width], block, |_, t| read(t));
+    };
     let levels = if weighted {
-        levels(width, height, |y| row(y).map(|&t| Weighted(read(t))), |Weighted(texel)| store(texel))
+        levels(&ByAlpha, [width, height], fill, store)
     } else {
-        levels(width, height, |y| row(y).map(|&t| read(t)), &store)
+        levels(&Plain, [width, height], fill, store)
     };
     levels.into_iter().map(|level| (level.width, level.height, texels(level.texels))).collect()
-}
-
-/// The levels below one of `width` x `height` texels, down to one texel: `row` gives the texels of one of its rows, `store`
-/// rounds.
-pub(crate) fn levels<A: Average, S: Copy + Default + Send + Sync, I: Iterator<Item = A>>(
-    width: usize,
-    height: usize,
-    row: impl Fn(usize) -> I + Sync,
-    store: impl Fn(A) -> S + Sync,
-) -> Vec<Level<S>> {
-    let (mut levels, mut last) = even_levels(width, height, &row, &store);
-    while last.as_ref().map_or(width > 1 || height > 1, |last| last.width > 1 || last.height > 1) {
-        let next = match &last {
-            Some(last) => {
-                halved(last.width, last.height, |y| last.texels[y * last.width..][..last.width].iter().copied())
-            }
-            None => halved(width, height, &row),
-        };
-        let texels = next.texels.par_iter().with_min_len(1 << 12).map(|&texel| store(texel)).collect();
-        levels.push(Level { width: next.width, height: next.height, texels });
-        last = Some(next);
-    }
-    levels
-}
-
-/// A level: of what is averaged, or stored.
-pub(crate) struct Level<T> {
-    pub(crate) width: usize,
-    pub(crate) height: usize,
-    pub(crate) texels: Vec<T>,
-}
-
-/// How many levels are made in one pass over the first at most: bands of 32 rows.
-const FUSED: u32 = 5;
-
-/// The levels down to where a side is odd, but at most [`FUSED`], made in one pass: as soon as two rows of a level are
-/// there they become one of the next, while they are in the cache. Also the last of them as it is before it is rounded;
-/// none where the first level has an odd side.
-fn even_levels<A: Average, S: Copy + Default + Send + Sync, I: Iterator<Item = A>>(
-    width: usize,
-    height: usize,
-    row: &(impl Fn(usize) -> I + Sync),
-    store: &(impl Fn(A) -> S + Sync),
-) -> (Vec<Level<S>>, Option<Level<A>>) {
-    let count = width.trailing_zeros().min(height.trailing_zeros()).min(FUSED);
-    if count == 0 {
-        return (Vec::new(), None);
-    }
-    let size = |level: u32| (width >> level, height >> level);
-    let mut stored: Vec<Vec<S>> = (1..=count).map(|level| vec![S::default(); size(level).0 * size(level).1]).collect();
-    let (last_width, bands) = size(count);
-    let mut last = Level { width: last_width, height: bands, texels: vec![A::ZERO; last_width * bands] };
-    // Band i makes row i of the last level, and 2, 4, 8 .. rows of those above.
-    let mut parts: Vec<_> = last.texels.chunks_mut(last_width).map(|row| (row, Vec::new())).collect();
-    for (level, texels) in (1..=count).zip(&mut stored) {
-        let rows = texels.chunks_mut(size(level).0 << (count - level));
-        parts.iter_mut().zip(rows).for_each(|((_, outs), rows)| outs.push(rows));
-    }
-    // Two rows of each level but the last, whose one row is the result.
-    let buffers =
-        || -> Vec<[Vec<A>; 2]> { (1..=count).map(|level| [(); 2].map(|()| vec![A::ZERO; size(level).0])).collect() };
-    parts.into_par_iter().enumerate().for_each_init(buffers, |rows, (band, (last_row, outs))| {
-        Arch::new().dispatch(Band { first: band << (count - 1), rows, outs, row, store });
-        last_row.copy_from_slice(&rows[count as usize - 1][0]);
-    });
-    let stored = (1..=count).zip(stored).map(|(level, texels)| {
-        let (width, height) = size(level);
-        Level { width, height, texels }
-    });
-    (stored.collect(), Some(last))
-}
-
-/// The work of one band, which `pulp` compiles for several instruction sets.
-struct Band<'a, A, S, R, F> {
-    /// The first row of the first level that is made.
-    first: usize,
-    rows: &'a mut [[Vec<A>; 2]],
-    outs: Vec<&'a mut [S]>,
-    row: &'a R,
-    store: &'a F,
-}
-
-impl<A: Average, S, I: Iterator<Item = A>, R: Fn(usize) -> I, F: Fn(A) -> S> NullaryFnOnce for Band<'_, A, S, R, F> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self { first, rows, mut outs, row, store } = self;
-        for y in 0..1_usize << (rows.len() - 1) {
-            let above = 2 * (first + y);
-            halve_rows(&mut rows[0][y % 2], row(above), row(above + 1));
-            let (mut level, mut y) = (0, y);
-            loop {
-                let done = &rows[level][y % 2];
-                let out = &mut outs[level][y * done.len()..][..done.len()];
-                out.iter_mut().zip(done).for_each(|(out, &texel)| *out = store(texel));
-                if y.is_multiple_of(2) || level + 1 == rows.len() {
-                    break;
-                }
-                let (above, below) = rows.split_at_mut(level + 1);
-                let [top, bottom] = &above[level];
-                halve_rows(&mut below[0][y / 2 % 2], top.iter().copied(), bottom.iter().copied());
-                (level, y) = (level + 1, y / 2);
-            }
-        }
-    }
-}
-
-/// One row from two of twice its length.
-#[inline(always)]
-fn halve_rows<A: Average>(row: &mut [A], mut top: impl Iterator<Item = A>, mut bottom: impl Iterator<Item = A>) {
-    for out in row {
-        if let (Some(a), Some(b), Some(c), Some(d)) = (top.next(), top.next(), bottom.next(), bottom.next()) {
-            *out = A::of_four([a, b, c, d]);
-        }
-    }
-}
-
-/// The level below one of `width` x `height` texels with an odd side.
-fn halved<A: Average, I: Iterator<Item = A>>(width: usize, height: usize, row: impl Fn(usize) -> I + Sync) -> Level<A> {
-    let (half_width, half_height) = ((width / 2).max(1), (height / 2).max(1));
-    let mut texels = vec![A::ZERO; half_width * half_height];
-    let rows = texels.par_chunks_mut(half_width).with_min_len(4096_usize.div_ceil(half_width)).enumerate();
-    rows.for_each_init(
-        || [(); 3].map(|()| Vec::with_capacity(width)),
-        |above, (y, out)| {
-            let down = footprint(height, y);
-            for (buffer, (j, _)) in above.iter_mut().zip(down.weights()) {
-                buffer.clear();
-                buffer.extend(row(j));
-            }
-            for (x, out) in out.iter_mut().enumerate() {
-                let across = footprint(width, x);
-                let parts = above.iter().zip(down.weights()).flat_map(|(row, (_, row_weight))| {
-                    across.weights().map(move |(i, weight)| (weight * row_weight, row[i]))
-                });
-                *out = A::of_parts(parts);
-            }
-        },
-    );
-    Level { width: half_width, height: half_height, texels }
-}
-
-/// What texel `i` of a level covers along one axis of the level above.
-#[derive(Clone, Copy)]
-struct Footprint {
-    first: usize,
-    count: usize,
-    weights: [f32; 3],
-}
-
-impl Footprint {
-    fn weights(&self) -> impl Iterator<Item = (usize, f32)> {
-        (0..self.count).map(|tap| (self.first + tap, self.weights[tap]))
-    }
-}
-
-/// With n texels above and m = max(1, floor(n / 2)) here, texel i covers [i n / m, (i + 1) n / m). For n = 2 m that is two
-/// whole texels; for n = 2 m + 1 it is the parts 1 - i / m, 1 and (i + 1) / m of three; all over n / m.
-fn footprint(n: usize, i: usize) -> Footprint {
-    let m = n / 2;
-    if n == 1 {
-        Footprint { first: 0, count: 1, weights: [1.0, 0.0, 0.0] }
-    } else if n.is_multiple_of(2) {
-        Footprint { first: 2 * i, count: 2, weights: [0.5, 0.5, 0.0] }
-    } else {
-        let part = |p: usize| p as f32 / n as f32;
-        Footprint { first: 2 * i, count: 3, weights: [part(m - i), part(m), part(i + 1)] }
-    }
 }

@@ -22,6 +22,13 @@ pub fn normal_from_texel_snorm<R: Real>(color: [R; 3], strength: R, flip_y: bool
     normalize_or([t[0] * strength, y * strength, t[2]], plus_z())
 }
 
+/// The colour that a normal has in a map whose zero is code 128: (127 n + 128) / 255. The inverse of
+/// [`normal_from_texel_snorm`] with strength 1, as [`texel_from_normal`](crate::blend::texel_from_normal) is of the plain
+/// reading; what writes a texel has to be what reads it.
+pub fn texel_from_normal_snorm<R: Real>(n_tangent: [R; 3]) -> [R; 3] {
+    n_tangent.map(|x| (real::<R>(127.0) * x + real(128.0)) / real(255.0))
+}
+
 /// The tangent-space unit normal of a texel with x and y only (BC5, ATI2, 3Dc; red and green), the third channel not read:
 ///
 /// ```text

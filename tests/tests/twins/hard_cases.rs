@@ -137,6 +137,22 @@ rows! {
     ]
 }
 
+/// Row "sRGB decode negative/over": below 0 the line goes on, above 1 the power. GPUs have no powers in f64.
+#[test]
+fn srgb_decode_negative_and_over() {
+    let Some(gpu) = Gpu::open() else { return };
+    fn is(a: &[f64], want: [f64; 3]) -> bool {
+        a.iter().zip(want).all(|(a, want)| (a - want).abs() <= 2e-5 * want.abs())
+    }
+    let calls: &[Call] = &[
+        ("linear_from_srgb", &[-0.1, -0.055, -1.0], |a| is(a, [-0.1 / 12.92, -0.055 / 12.92, -1.0 / 12.92])),
+        ("linear_from_srgb", &[0.0, 1.0, 2.0], |a| is(a, [0.0, 1.0, 4.9538458])),
+        ("srgb_from_linear", &[-0.1, -1e-6, -2.0], |a| is(a, [-1.292, -1.292e-5, -25.84])),
+        ("srgb_from_linear", &[0.0, 1.0, 4.0], |a| is(a, [0.0, 1.0, 1.8247963])),
+    ];
+    check::<f32>(&gpu, calls);
+}
+
 /// Panics where a function's answer is not unit.
 fn all_unit(gpu: &Gpu, module: &naga::Module, function: &str, arguments: &[f32]) -> Vec<f32> {
     let results = gpu.call::<f32>(module, function, arguments);

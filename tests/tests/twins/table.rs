@@ -290,6 +290,7 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("maps/texel.wgsl" "normal_from_texel_snorm", [Pair(0.0, 1.0), Range(0.7, 1.0), Range(0.0, 2.0), Bool], 16.0, 1.0, DOUBLE, |x| texel::normal_from_texel_snorm(v(x, 0), x[3], x[4] != 0.0)),
     // Near the rim of the unit circle z is the root of what rounding leaves: inside of it here, the rim in the tests of maps.
     twin!("maps/texel.wgsl" "normal_from_texel_two_channel", [Color(0.2, 0.8), Range(0.0, 2.0), Bool], 16.0, 1.0, DOUBLE, |x| texel::normal_from_texel_two_channel(v(x, 0), x[3], x[4] != 0.0)),
+    twin!("maps/texel.wgsl" "texel_from_normal_snorm", [Unit], 2.0, 1.0, DOUBLE, |x| texel::texel_from_normal_snorm(v(x, 0))),
     twin!("math.wgsl" "finite_or_zero", [Color(-1e38, 1e38)], 0.0, 0.0, DOUBLE, |x| math::finite_or_zero(v(x, 0))),
     twin!("math.wgsl" "normalize_or", [Vector, Unit], 6.0, 0.0, DOUBLE, |x| math::normalize_or(v(x, 0), v(x, 3))),
     twin!("math.wgsl" "pow5", [Range(-2.0, 2.0)], 3.0, 0.0, DOUBLE, |x| [math::pow5(x[0])]),

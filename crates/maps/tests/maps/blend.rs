@@ -11,9 +11,9 @@ use halfvector_maps::octahedral::{direction_from_octahedral, octahedral_from_dir
 
 use crate::{assert_near, cross, degrees_between, is_unit, r, unit, v, wide};
 
-type Blend<R> = fn([R; 3], [R; 3]) -> [R; 3];
+pub(crate) type Blend<R> = fn([R; 3], [R; 3]) -> [R; 3];
 
-fn blends<R: Real>() -> [(&'static str, Blend<R>); 5] {
+pub(crate) fn blends<R: Real>() -> [(&'static str, Blend<R>); 5] {
     [
         ("rnm", blend_rnm),
         ("partial_derivatives", blend_partial_derivatives),

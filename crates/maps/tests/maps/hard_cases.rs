@@ -1,6 +1,7 @@
 //! One test for each row of the hard-case catalogue about texels, normals, tangents, UVs, sRGB and scale, in f32 and f64.
 
 use halfvector_maps::color::{gamma_from_linear, linear_from_srgb, luminance, srgb_from_linear};
+use halfvector_maps::derivative::tangent_from_derivatives;
 use halfvector_maps::frame::{cofactor, handedness, normal_from_object, transformed};
 use halfvector_maps::height::{displaced, normal_from_height};
 use halfvector_maps::normal::{
@@ -126,6 +127,51 @@ in_f32_and_f64! {
                     }
                 }
             }
+        }
+    }
+}
+
+in_f32_and_f64! {
+    /// Row "rotation method accuracy": two rotations do not commute, and are 11.72 degrees off where the tangent frame is exact.
+    fn rotation_method_accuracy<R>() {
+        let (t, up) = ([0.6, 0.6, 0.28_f64.sqrt()], [0.0, 0.0, 1.0]);
+        let fixed = normal_rotation_fixed::<R>(v(t), v(up));
+        assert_near(fixed, [0.496_078_37, 0.75, 0.4375], 1e-6);
+        assert!((degrees_between(wide(fixed), t) - 11.72).abs() < 0.01);
+        assert_near(normal_tbn::<R>(v(t), v(up), [r(1.0), r(0.0), r(0.0), r(1.0)]), t, 1e-6);
+    }
+}
+
+in_f32_and_f64! {
+    /// Rows "degenerate UV", "near-degenerate UV" and "mirrored UV" where the tangent comes from derivatives.
+    fn tangents_of_degenerate_derivatives<R>() {
+        let tangent = |[ux, vx, uy, vy]: [f64; 4]| {
+            let (px, py, n) = (v([1.0, 0.0, 0.0]), v([0.0, 1.0, 0.0]), v([0.0, 0.0, 1.0]));
+            tangent_from_derivatives::<R>(px, py, n, [r(ux), r(vx)], [r(uy), r(vy)])
+        };
+        for ([ux, vx, uy, vy], want) in [
+            ([0.0; 4], [0.0, 0.0, 0.0]),
+            ([1.0, 1.0, 1.0, 1.0], [0.0, 0.0, 0.0]),
+            ([7.071e-7, 0.0, 0.0, -7.071e-7], [1.0, 0.0, 0.0]),
+            ([-1.0, 0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]),
+        ] {
+            let [x, y, z, w] = tangent([ux, vx, uy, vy]);
+            assert_near([x, y, z], want, 1e-6);
+            if want != [0.0; 3] {
+                assert_eq!(w.to_f64(), want[0]);
+            }
+            // A zero tangent is read as: any will do.
+            assert!((wide(normal_tbn(v([0.6, 0.0, 0.8]), v([0.0, 0.0, 1.0]), [x, y, z, w]))[2] - 0.8).abs() < 1e-6);
+        }
+    }
+}
+
+in_f32_and_f64! {
+    /// Rows "Frisvad basis": at the south pole and next to it.
+    fn frisvad_basis<R>() {
+        for n in [[0.0, 0.0, -1.0], [0.000_488_3, 0.0, -0.999_999_881], [0.000_345_3, 0.0, -0.999_999_94]] {
+            let t = tangent_from_normal::<R>(v(n));
+            assert!(is_unit(t) && dot(wide(t), n).abs() < 1e-6, "{n:?}: {:?}", wide(t));
         }
     }
 }

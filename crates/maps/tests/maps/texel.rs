@@ -1,10 +1,12 @@
 //! Other readings of a normal map's texel: hard cases in f32 and f64, and every texel that 8 bits can hold.
 
 use halfvector_maps::Real;
+use halfvector_maps::blend::texel_from_normal;
 use halfvector_maps::normal::normal_from_texel;
-use halfvector_maps::texel::{normal_from_texel_snorm, normal_from_texel_two_channel};
+use halfvector_maps::texel::{normal_from_texel_snorm, normal_from_texel_two_channel, texel_from_normal_snorm};
 use rayon::prelude::*;
 
+use crate::blend::blends;
 use crate::{assert_near, degrees_between, is_unit, r, unit, v, wide};
 
 /// Runs a generic check in both types.
@@ -24,6 +26,24 @@ fn normal_texel_8_bit_flat() {
         let flat = v([128.0 / 255.0, 128.0 / 255.0, 1.0]);
         assert!(degrees_between(wide(normal_from_texel_snorm::<R>(flat, r(1.0), false)), UP) < 1e-5);
         assert!((degrees_between(wide(normal_from_texel::<R>(flat, r(1.0), false)), UP) - 0.3178).abs() < 1e-3);
+    }
+    both!(check);
+}
+
+/// A neutral texel of a map centred on 128 stays straight up through every blend and back through a colour.
+#[test]
+fn neutral_snorm_texels_blend_to_straight_up() {
+    fn check<R: Real>() {
+        let read = |color| normal_from_texel_snorm::<R>(color, r(1.0), false);
+        let flat = read(v([128.0 / 255.0, 128.0 / 255.0, 1.0]));
+        for (name, blend) in blends::<R>() {
+            let up = wide(read(texel_from_normal_snorm(blend(flat, flat))));
+            assert!(degrees_between(up, UP) < 1e-4, "{name}: {up:?}");
+        }
+        let n = unit([0.3, -0.2, 0.9]);
+        assert_near(read(texel_from_normal_snorm(v(n))), n, 1e-6);
+        // Written as 2 c - 1 and read as centred on 128 it would lean.
+        assert!(degrees_between(wide(read(texel_from_normal(flat))), UP) > 0.3);
     }
     both!(check);
 }
