@@ -111,29 +111,6 @@ fn normal_maps_are_read_as_the_scene_says() {
     }
 }
 
-/// What a blend writes for a normal map node to read is coded as the scene's decode has it.
-#[test]
-fn texels_are_written_as_they_are_read() {
-    for blend in ["", "_rnm", "_whiteout", "_udn", "_linear"] {
-        let document = material(
-            "",
-            &format!(
-                r#""map": {{"node": "textures/image", "values": {{"image": {{"file": "n.png", "color_space": "linear"}}}}}},
-                   "both": {{"node": "textures/normal_blend{blend}"}}, "bent": {{"node": "textures/normal_map"}}"#
-            ),
-            r#"{"from": "map.color", "to": "both.base"}, {"from": "map.color", "to": "both.detail"},
-               {"from": "both.out", "to": "bent.color"}, {"from": "bent.out", "to": "surface.normal"}"#,
-        );
-        for (method, function) in [("unorm", "texel_from_normal("), ("snorm", "texel_from_normal_snorm(")] {
-            let text = exported(&document, &Needs { methods: methods(&[("normal_decode", method)]), ..sun() }).wgsl;
-            let others =
-                ["texel_from_normal(", "texel_from_normal_snorm("].into_iter().filter(|name| *name != function);
-            assert!(text.contains(function), "{text}");
-            others.for_each(|other| assert!(!text.contains(other), "{other} in {text}"));
-        }
-    }
-}
-
 #[test]
 fn methods_exchange_functions() {
     let document = material(r#""metallic": 0.5"#, "", "");
