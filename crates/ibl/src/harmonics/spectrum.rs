@@ -204,11 +204,12 @@ impl NullaryFnOnce for Analysis<'_> {
         for block in self.blocks {
             // Functions with even l - m are the same on both halves of the sphere, the others change sign.
             let mut values = [[[0.0; 8]; LANES]; 2];
-            for i in 0..LANES {
+            let [even, odd] = &mut values;
+            for (i, (even, odd)) in even.iter_mut().zip(odd).enumerate() {
                 let (north, south) = (&self.rows[block.north[i]][self.m], &self.rows[block.south[i]][self.m]);
                 for c in 0..6 {
-                    values[0][i][c] = block.weight[i] * (north[c] + south[c]);
-                    values[1][i][c] = block.weight[i] * (north[c] - south[c]);
+                    even[c] = block.weight[i] * (north[c] + south[c]);
+                    odd[c] = block.weight[i] * (north[c] - south[c]);
                 }
             }
             self.order.each_two(
@@ -335,16 +336,11 @@ pub(crate) struct Grid {
 impl Grid {
     /// The colour in a direction: the cubic through four neighbours in each way. Never below 0.
     pub(crate) fn sample(&self, dir: [f64; 3]) -> [f32; 3] {
-        let [r, g, b, _] = self.sample_with_grey(dir);
+        let [r, g, b, _] = self.at(equirect_from_direction(dir));
         [r, g, b]
     }
 
-    /// [`Grid::sample`] with the grey channel, which may be below 0.
-    pub(crate) fn sample_with_grey(&self, dir: [f64; 3]) -> [f32; 4] {
-        self.at(equirect_from_direction(dir))
-    }
-
-    /// [`Grid::sample_with_grey`] at map coordinates within 0..1.
+    /// [`Grid::sample`] at map coordinates within 0..1, with the grey channel, which may be below 0.
     pub(crate) fn at(&self, (u, v): (f64, f64)) -> [f32; 4] {
         let columns = 2 * self.rows;
         let (x, y) = (u * columns as f64 - 0.5, v * self.rows as f64 - 0.5);
