@@ -229,7 +229,7 @@ impl Plan {
             Source::Equirect(_) => None,
         };
         let size = args.size.map(|size| size as usize).or(stored_size).unwrap_or(DEFAULT_SIZE).min(MAX_SIZE);
-        let irradiance_size = args.quality.irradiance_size();
+        let irradiance_size = args.irradiance.as_ref().map_or(1, |_| args.quality.irradiance_size());
         let plain = BakeOptions { size, irradiance_size, quality: args.quality, ..BakeOptions::default() };
         if args.output.format == CubeFormat::Hdre {
             return Plan::hdre(args, plain);
