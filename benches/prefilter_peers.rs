@@ -29,7 +29,8 @@ fn main() {
     let mut seconds = [const { Vec::new() }; 4];
     for _ in 0..RUNS {
         for (times, quality) in seconds.iter_mut().zip([Quality::Preview, Quality::Default, Quality::Best]) {
-            let options = BakeOptions { size: 256, quality, ..BakeOptions::default() };
+            let irradiance_size = quality.irradiance_size();
+            let options = BakeOptions { size: 256, irradiance_size, quality, ..BakeOptions::default() };
             let before = cpu_seconds(false);
             let baked = bake(&environment, &options);
             times.push(cpu_seconds(false) - before);

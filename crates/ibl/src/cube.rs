@@ -126,6 +126,42 @@ pub(crate) fn texels<T: Copy + Default + Send>(size: usize, value: impl Fn(usize
     texels
 }
 
+/// `value(column, row)` for the texels at the same place of the six faces, computed row by row in parallel.
+pub(crate) fn texels_of_six<T: Copy + Default + Send>(
+    size: usize,
+    value: impl Fn(usize, usize) -> [T; 6] + Sync,
+) -> Vec<T> {
+    let mut texels = vec![T::default(); 6 * size * size];
+    let mut faces: Vec<_> = texels.chunks_exact_mut(size * size).map(|face| face.chunks_exact_mut(size)).collect();
+    let rows: Vec<Vec<&mut [T]>> = (0..size).map(|_| faces.iter_mut().flat_map(Iterator::next).collect()).collect();
+    rows.into_par_iter().enumerate().for_each(|(j, mut row)| {
+        for i in 0..size {
+            for (face, texel) in row.iter_mut().zip(value(i, j)) {
+                face[i] = texel;
+            }
+        }
+    });
+    texels
+}
+
+/// The map coordinates of the point (s, t) of each of the six faces: those of
+/// [`equirect_from_direction`](crate::equirect::equirect_from_direction) of [`direction_from_face`], by a third of its work.
+pub(crate) fn equirect_from_six_faces(s: f64, t: f64) -> [(f64, f64); 6] {
+    use std::f64::consts::PI;
+    // Turning by a face turns the azimuth by a quarter.
+    let (azimuth, v) = (s.atan() / (2.0 * PI), (1.0 + s * s).sqrt().atan2(-t) / PI);
+    let behind = if s >= 0.0 { 1.0 } else { 0.0 };
+    let (around, from_pole) = (t.atan2(s) / (2.0 * PI), (s * s + t * t).sqrt().atan() / PI);
+    [
+        (0.5 - azimuth, v),
+        (behind - azimuth, v),
+        (0.5 + around, from_pole),
+        (0.5 - around, 1.0 - from_pole),
+        (0.75 - azimuth, v),
+        (0.25 - azimuth, v),
+    ]
+}
+
 /// The value in a direction, interpolated bilinearly between the texels `at(index)` of a cube, across its edges too.
 pub(crate) fn interpolated<const N: usize>(size: usize, dir: [f64; 3], at: impl Fn(usize) -> [f32; N]) -> [f32; N] {
     let (face, s, t) = face_from_direction(dir);
@@ -178,4 +214,22 @@ pub(crate) fn texel_direction(size: usize, face: usize, i: f64, j: f64) -> [f64;
 pub(crate) fn unit(v: [f64; 3]) -> [f64; 3] {
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     v.map(|x| x / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::equirect::equirect_from_direction;
+
+    #[test]
+    fn six_faces_agree_with_each() {
+        for (s, t) in [(0.0, 0.0), (0.3, -0.7), (-0.3, -0.7), (1.0, 1.0), (-1.0, 0.2), (0.001, -0.999), (-0.5, 0.0)] {
+            for (face, (u, v)) in equirect_from_six_faces(s, t).into_iter().enumerate() {
+                let (x, y) = equirect_from_direction(direction_from_face(face, s, t));
+                // u is a place on a circle.
+                let across = (u - x).abs();
+                assert!(across.min(1.0 - across) < 1e-12 && (v - y).abs() < 1e-12, "{face}: {u} {v} for {x} {y}");
+            }
+        }
+    }
 }

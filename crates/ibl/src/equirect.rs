@@ -53,7 +53,11 @@ impl Equirect {
 
     /// Radiance from a direction, interpolated bilinearly: columns wrap, rows beyond a pole go on down the other side.
     pub fn sample(&self, dir: [f64; 3]) -> [f32; 3] {
-        let (u, v) = equirect_from_direction(dir);
+        self.at(equirect_from_direction(dir))
+    }
+
+    /// [`Equirect::sample`] at map coordinates within 0..1.
+    pub(crate) fn at(&self, (u, v): (f64, f64)) -> [f32; 3] {
         let (x, y) = (u * self.width as f64 - 0.5, v * self.height as f64 - 0.5);
         let (column, row) = (x.floor(), y.floor());
         let (s, t) = ((x - column) as f32, (y - row) as f32);

@@ -73,24 +73,40 @@ pub(crate) fn ggx_weight(alpha: f64, cos: f64, one_minus_cos: f64) -> f64 {
 
 /// k_l = integral of w P_l(cos) / integral of w, over the hemisphere, for a weight w(cos, 1 - cos) as wide as `width`.
 fn zonal_kernel(band: usize, width: f64, weight: impl Fn(f64, f64) -> f64) -> Vec<f64> {
-    let rule = gauss_legendre(8);
+    // The points of a panel go together through the recursion P_(l+1) = ((2l + 1) cos P_l - l P_(l-1)) / (l + 1).
+    const POINTS: usize = 8;
+    let rule = gauss_legendre(POINTS);
+    let factors: Vec<(f64, f64)> =
+        (0..=band).map(|l| l as f64).map(|l| ((2.0 * l + 1.0) / (l + 1.0), l / (l + 1.0))).collect();
     // Panels short enough for the fastest polynomial and, near the lobe's middle, for the lobe.
     let longest = 3.0 / (band as f64 + 1.0);
     let mut kernel = vec![0.0; band + 1];
     let mut start = 0.0;
     while start < FRAC_PI_2 {
         let end = (start + (width.max(start) / 2.0).min(longest)).min(FRAC_PI_2);
-        for &(x, w) in &rule {
+        let (mut cosines, mut weights) = ([0.0; POINTS], [0.0; POINTS]);
+        for (i, &(x, w)) in rule.iter().enumerate() {
             let theta: f64 = start + (end - start) * (x + 1.0) / 2.0;
             let (sin, cos) = theta.sin_cos();
             let half = (theta / 2.0).sin();
-            let w = w * (end - start) / 2.0 * sin * weight(cos, 2.0 * half * half);
-            let (mut p, mut before) = (1.0, 0.0);
-            for (l, k) in kernel.iter_mut().enumerate() {
-                *k += w * p;
-                let l = l as f64;
-                (p, before) = (((2.0 * l + 1.0) * cos * p - l * before) / (l + 1.0), p);
+            cosines[i] = cos;
+            weights[i] = w * (end - start) / 2.0 * sin * weight(cos, 2.0 * half * half);
+        }
+        // w P_l, which obeys the same recursion.
+        let (mut p, mut before) = (weights, [0.0; POINTS]);
+        for (k, &(a, b)) in kernel.iter_mut().zip(&factors) {
+            let mut next = [0.0; POINTS];
+            let mut sums = p;
+            for i in 0..POINTS {
+                next[i] = a * cosines[i] * p[i] - b * before[i];
             }
+            for half in [4, 2, 1] {
+                for i in 0..half {
+                    sums[i] += sums[i + half];
+                }
+            }
+            *k += sums[0];
+            (p, before) = (next, p);
         }
         start = end;
     }

@@ -1,6 +1,6 @@
 //! Equirectangular maps to cubes and back, filtered by area.
 
-use crate::cube::{Cube, texel_direction};
+use crate::cube::{Cube, equirect_from_six_faces, texels_of_six};
 use crate::equirect::Equirect;
 use std::f64::consts::PI;
 
@@ -19,6 +19,16 @@ const LOOKUPS_PER_TEXEL: f64 = 1.5;
 /// not be; where it is coarser (also in longitude alone, near the poles) each texel is the mean of a regular grid of
 /// lookups over its area, close enough that no texel of the map falls between them.
 pub fn cube_from_equirect(map: &Equirect, size: usize) -> Cube {
+    resampled(map, size, LOOKUPS_PER_TEXEL)
+}
+
+/// [`cube_from_equirect`] with half of the lookups along an edge: no texel of the map is left out, but those that lie in
+/// the middle of a lookup count more than the others.
+pub(crate) fn preview_from_equirect(map: &Equirect, size: usize) -> Cube {
+    resampled(map, size, 0.5 * LOOKUPS_PER_TEXEL)
+}
+
+fn resampled(map: &Equirect, size: usize, lookups_per_texel: f64) -> Cube {
     let size = size.max(1);
     // A texel in the middle of a face is this wide, in radians; those nearer to the corners are smaller.
     let width_of_texel = 2.0 / size as f64;
@@ -30,31 +40,43 @@ pub fn cube_from_equirect(map: &Equirect, size: usize) -> Cube {
     }
     let rows_per_radian = map.height as f64 / PI;
     let columns_per_radian = map.width as f64 / (2.0 * PI);
-    Cube::from_texels(size, |face, i, j| {
-        let centre = texel_direction(size, face, i as f64, j as f64);
-        let [x, y, z] = centre;
-        let across = x * x + z * z;
-        let length2 = across + y * y;
-        // The texel's width seen from the cube's middle, and how many columns and rows of the map that is.
+    let place = |i: f64| (2.0 * i + 1.0) / size as f64 - 1.0;
+    let texels = texels_of_six(size, |i, j| {
+        let (s, t) = (place(i as f64), place(j as f64));
+        let length2 = 1.0 + s * s + t * t;
+        // The texel's width seen from the cube's middle, and how many columns and rows of the map that is, on the four
+        // faces round the horizon and on the two about the poles.
         let angle = width_of_texel / length2.sqrt();
-        let sin_theta = (across / length2).sqrt().max(1e-9);
-        let columns = (angle * columns_per_radian / sin_theta).min(MAX_TEXELS_AT_POLES);
-        let texels = columns.max(angle * rows_per_radian);
-        if texels <= 1.0 {
-            return map.sample(centre);
-        }
-        let n = (LOOKUPS_PER_TEXEL * texels).ceil() as usize;
-        let mut sum = [0.0f64; 3];
-        for k in 0..n * n {
+        let lookups = |across: f64| {
+            let sin_theta = (across / length2).sqrt().max(1e-9);
+            let columns = (angle * columns_per_radian / sin_theta).min(MAX_TEXELS_AT_POLES);
+            let texels = columns.max(angle * rows_per_radian);
+            if texels <= 1.0 { 1 } else { (lookups_per_texel * texels).ceil() as usize }
+        };
+        let (sides, poles) = (lookups(1.0 + s * s), lookups(s * s + t * t));
+        let mut sums = [[0.0f64; 3]; 6];
+        let mut add = |n: usize, faces: &[usize]| {
             let offset = |k: usize| (k as f64 + 0.5) / n as f64 - 0.5;
-            let dir = texel_direction(size, face, i as f64 + offset(k % n), j as f64 + offset(k / n));
-            let texel = map.sample(dir);
-            for c in 0..3 {
-                sum[c] += f64::from(texel[c]);
+            for k in 0..n * n {
+                let coordinates =
+                    equirect_from_six_faces(place(i as f64 + offset(k % n)), place(j as f64 + offset(k / n)));
+                for &face in faces {
+                    let texel = map.at(coordinates[face]);
+                    for c in 0..3 {
+                        sums[face][c] += f64::from(texel[c]) / (n * n) as f64;
+                    }
+                }
             }
+        };
+        if sides == poles {
+            add(sides, &[0, 1, 2, 3, 4, 5]);
+        } else {
+            add(sides, &[0, 1, 4, 5]);
+            add(poles, &[2, 3]);
         }
-        sum.map(|x| (x / (n * n) as f64) as f32)
-    })
+        sums.map(|sum| sum.map(|x| x as f32))
+    });
+    Cube { size, texels }
 }
 
 /// The map, four times as wide as the cube's faces, that returns the cube's value in each direction, by bilinear lookups.

@@ -53,7 +53,8 @@ pub(crate) struct BakeArgs {
     /// How a KTX2 file stores a texel: rgba16f, rgba32f, or rgb9e5, the smallest
     #[arg(long, value_name = "NAME", default_value = "rgba16f", value_parser = parse_texels)]
     texels: TexelFormat,
-    /// Also writes diffuse irradiance over pi as a cube of 192 texels, .ktx2, .exr or .png
+    /// Also writes diffuse irradiance over pi as a cube of 448 texels along an edge, or 64 for a preview: .ktx2, .exr
+    /// or .png
     #[arg(long, value_name = "OUT2", value_parser = parse_cube_file)]
     irradiance: Option<CubeFile>,
     /// Also writes the spherical harmonics of the light and of its irradiance
@@ -228,7 +229,8 @@ impl Plan {
             Source::Equirect(_) => None,
         };
         let size = args.size.map(|size| size as usize).or(stored_size).unwrap_or(DEFAULT_SIZE).min(MAX_SIZE);
-        let plain = BakeOptions { size, quality: args.quality, ..BakeOptions::default() };
+        let irradiance_size = args.irradiance.as_ref().map_or(1, |_| args.quality.irradiance_size());
+        let plain = BakeOptions { size, irradiance_size, quality: args.quality, ..BakeOptions::default() };
         if args.output.format == CubeFormat::Hdre {
             return Plan::hdre(args, plain);
         }

@@ -88,6 +88,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
             "note: --tone-map and --exposure do nothing here: .exr and .hdr hold radiance, encode=report display values",
         );
     }
+    if args.background == Some(Background::None) && args.output.format == PictureFormat::Hdr {
+        note("note: .hdr has no alpha: what is behind the object is black; .png and .exr keep it apart");
+    }
     for text in &scene.notes {
         note(format_args!("note: {text}"));
     }

@@ -30,7 +30,7 @@ pub fn bake_filtered_by<E>(
     let roughness = level_roughness(options, size);
     let source = decoded(environment, options.decode_report);
     let (map, level_0) = match &*source {
-        Source::Equirect(map) => (Cow::Borrowed(map), cube_from_equirect(map, size)),
+        Source::Equirect(map) => (Cow::Borrowed(map), options.quality.level_0(map, size)),
         Source::Levels(stored) if serves(stored, options, &roughness, size) => return Ok(bake(environment, options)),
         Source::Levels(stored) => (Cow::Owned(equirect_from_cube(&stored.levels[0])), stored.levels[0].resized(size)),
     };

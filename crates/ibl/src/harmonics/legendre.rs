@@ -59,25 +59,28 @@ impl Order {
         }
         let mut odd = [0.0; LANES];
         let mut even = power.map(|x| x * self.start);
-        let step = |(a, b): (f64, f64), p: &Lanes, before: &Lanes| {
-            let mut next = [0.0; LANES];
-            for i in 0..LANES {
-                next[i] = a * cos[i] * p[i] - b * before[i];
-            }
-            next
-        };
         let mut k = 0;
         let steps = self.factors.chunks_exact(2);
         let last = steps.remainder();
         for pair in steps {
-            odd = step(pair[0], &even, &odd);
+            odd = step(pair[0], cos, &even, &odd);
             two(k, &even, &odd);
-            even = step(pair[1], &odd, &even);
+            even = step(pair[1], cos, &odd, &even);
             k += 1;
         }
-        odd = last.first().map_or([0.0; LANES], |&factors| step(factors, &even, &odd));
+        odd = if let [factors] = last { step(*factors, cos, &even, &odd) } else { [0.0; LANES] };
         two(k, &even, &odd);
     }
+}
+
+/// The function of the next degree from the two before it.
+#[inline(always)]
+fn step((a, b): (f64, f64), cos: &Lanes, p: &Lanes, before: &Lanes) -> Lanes {
+    let mut next = [0.0; LANES];
+    for i in 0..LANES {
+        next[i] = a * cos[i] * p[i] - b * before[i];
+    }
+    next
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::fourier::{Complex, Fourier};
 use super::gauss_legendre;
 use super::legendre::{LANES, Lanes, Order};
 use crate::equirect::{Equirect, equirect_from_direction};
+use pulp::NullaryFnOnce;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -51,10 +52,13 @@ impl Spectrum {
             .into_par_iter()
             .map(|m| {
                 let order = Order::new(m, band);
-                pulp::Arch::new().dispatch(
-                    #[inline(always)]
-                    || order_sums(&order, band - m + 1, m, &rows, &blocks),
-                )
+                pulp::Arch::new().dispatch(Analysis {
+                    order: &order,
+                    degrees: band - m + 1,
+                    m,
+                    rows: &rows,
+                    blocks: &blocks,
+                })
             })
             .collect();
         Spectrum { orders }
@@ -98,7 +102,8 @@ impl Spectrum {
                 let mut sums = vec![[0.0; 8]; rows];
                 for first in (0..latitudes).step_by(LANES) {
                     let theta: Lanes = std::array::from_fn(|i| PI * ((first + i) as f64 + 0.5) / rows as f64);
-                    let [even, odd] = evaluated(&order, &scaled, &theta);
+                    let [even, odd] =
+                        pulp::Arch::new().dispatch(Synthesis { order: &order, coefficients: &scaled, theta: &theta });
                     for i in 0..LANES.min(latitudes - first) {
                         let row = first + i;
                         sums[row] = std::array::from_fn(|c| even[c][i] + odd[c][i]);
@@ -139,15 +144,28 @@ impl Spectrum {
     }
 }
 
-/// The sums over even and over odd l - m of coefficient times P_lm, at the polar angles `theta`.
-fn evaluated(order: &Order, coefficients: &[[[f64; 8]; 2]], theta: &Lanes) -> [[Lanes; 8]; 2] {
-    pulp::Arch::new().dispatch(
-        #[inline(always)]
-        || {
-            let mut sums = [[[0.0; LANES]; 8]; 2];
-            let [even, odd] = &mut sums;
-            order.each_two(&theta.map(f64::cos), &theta.map(f64::sin), |k, p, q| {
-                let [a, b] = &coefficients[k];
+/// The sums over even and over odd l - m of coefficient times P_lm, at eight polar angles.
+///
+/// A struct, not a closure: only its call is sure to be compiled within what `pulp` compiles for each instruction set.
+struct Synthesis<'a> {
+    order: &'a Order,
+    coefficients: &'a [[[f64; 8]; 2]],
+    theta: &'a Lanes,
+}
+
+impl NullaryFnOnce for Synthesis<'_> {
+    type Output = [[Lanes; 8]; 2];
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let mut sums = [[[0.0; LANES]; 8]; 2];
+        let [even, odd] = &mut sums;
+        self.order.each_two(
+            &self.theta.map(f64::cos),
+            &self.theta.map(f64::sin),
+            #[inline(always)]
+            |k, p, q| {
+                let [a, b] = &self.coefficients[k];
                 for c in 0..8 {
                     for i in 0..LANES {
                         even[c][i] += a[c] * p[i];
@@ -156,10 +174,10 @@ fn evaluated(order: &Order, coefficients: &[[[f64; 8]; 2]], theta: &Lanes) -> [[
                         odd[c][i] += b[c] * q[i];
                     }
                 }
-            });
-            sums
-        },
-    )
+            },
+        );
+        sums
+    }
 }
 
 fn add(sum: &mut Complex, x: Complex) {
@@ -168,39 +186,62 @@ fn add(sum: &mut Complex, x: Complex) {
 }
 
 /// The sums over all latitudes of P_lm times the rows' order m, for each degree l.
-#[inline(always)]
-fn order_sums(order: &Order, degrees: usize, m: usize, rows: &[Vec<Channels>], blocks: &[NodeBlock]) -> Vec<Channels> {
-    let mut sums = vec![[[0.0; 6]; 2]; degrees.div_ceil(2)];
-    for block in blocks {
-        // Functions with even l - m are the same on both halves of the sphere, the others change sign.
-        let mut values = [[[0.0; LANES]; 6]; 2];
-        for i in 0..LANES {
-            let (north, south) = (&rows[block.north[i]][m], &rows[block.south[i]][m]);
-            for c in 0..6 {
-                values[0][c][i] = block.weight[i] * (north[c] + south[c]);
-                values[1][c][i] = block.weight[i] * (north[c] - south[c]);
-            }
-        }
-        order.each_two(&block.cos, &block.sin, |k, p, q| {
-            for c in 0..6 {
-                sums[k][0][c] += dot(p, &values[0][c]);
-                sums[k][1][c] += dot(q, &values[1][c]);
-            }
-        });
-    }
-    let mut sums = sums.into_flattened();
-    sums.truncate(degrees);
-    sums
+struct Analysis<'a> {
+    order: &'a Order,
+    degrees: usize,
+    m: usize,
+    rows: &'a [Vec<Channels>],
+    blocks: &'a [NodeBlock],
 }
 
-/// The sum of products, in a fixed order that vector units can follow.
-#[inline(always)]
-fn dot(a: &Lanes, b: &Lanes) -> f64 {
-    let mut sums = [0.0; LANES / 2];
-    for i in 0..LANES / 2 {
-        sums[i] = a[i] * b[i] + a[i + LANES / 2] * b[i + LANES / 2];
+impl NullaryFnOnce for Analysis<'_> {
+    type Output = Vec<Channels>;
+
+    #[inline(always)]
+    fn call(self) -> Vec<Channels> {
+        // Six channels and two of nothing, which fill the vectors.
+        let mut sums = vec![[[0.0; 8]; 2]; self.degrees.div_ceil(2)];
+        for block in self.blocks {
+            // Functions with even l - m are the same on both halves of the sphere, the others change sign.
+            let mut values = [[[0.0; 8]; LANES]; 2];
+            let [even, odd] = &mut values;
+            for (i, (even, odd)) in even.iter_mut().zip(odd).enumerate() {
+                let (north, south) = (&self.rows[block.north[i]][self.m], &self.rows[block.south[i]][self.m]);
+                for c in 0..6 {
+                    even[c] = block.weight[i] * (north[c] + south[c]);
+                    odd[c] = block.weight[i] * (north[c] - south[c]);
+                }
+            }
+            self.order.each_two(
+                &block.cos,
+                &block.sin,
+                #[inline(always)]
+                |k, p, q| {
+                    let [even, odd] = &mut sums[k];
+                    add_weighted(even, p, &values[0]);
+                    add_weighted(odd, q, &values[1]);
+                },
+            );
+        }
+        let mut sums: Vec<Channels> =
+            sums.into_flattened().into_iter().map(|s| [s[0], s[1], s[2], s[3], s[4], s[5]]).collect();
+        sums.truncate(self.degrees);
+        sums
     }
-    (sums[0] + sums[2]) + (sums[1] + sums[3])
+}
+
+/// Adds the values of eight latitudes, each times its weight.
+#[inline(always)]
+fn add_weighted(sum: &mut [f64; 8], weights: &Lanes, values: &[[f64; 8]; LANES]) {
+    let mut parts = [[0.0; 8]; 2];
+    for i in 0..LANES {
+        for c in 0..8 {
+            parts[i % 2][c] += weights[i] * values[i][c];
+        }
+    }
+    for c in 0..8 {
+        sum[c] += parts[0][c] + parts[1][c];
+    }
 }
 
 /// The number of columns for the Fourier transform: a power of two, the map's own where it can be.
@@ -295,14 +336,13 @@ pub(crate) struct Grid {
 impl Grid {
     /// The colour in a direction: the cubic through four neighbours in each way. Never below 0.
     pub(crate) fn sample(&self, dir: [f64; 3]) -> [f32; 3] {
-        let [r, g, b, _] = self.sample_with_grey(dir);
+        let [r, g, b, _] = self.at(equirect_from_direction(dir));
         [r, g, b]
     }
 
-    /// [`Grid::sample`] with the grey channel, which may be below 0.
-    pub(crate) fn sample_with_grey(&self, dir: [f64; 3]) -> [f32; 4] {
+    /// [`Grid::sample`] at map coordinates within 0..1, with the grey channel, which may be below 0.
+    pub(crate) fn at(&self, (u, v): (f64, f64)) -> [f32; 4] {
         let columns = 2 * self.rows;
-        let (u, v) = equirect_from_direction(dir);
         let (x, y) = (u * columns as f64 - 0.5, v * self.rows as f64 - 0.5);
         let (column, row) = (x.floor(), y.floor());
         let (wx, wy) = (cubic_weights((x - column) as f32), cubic_weights((y - row) as f32));

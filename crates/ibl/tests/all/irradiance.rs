@@ -1,11 +1,12 @@
 //! The irradiance cube by its size: at the tables' directions, and at any direction against a sum over every texel.
 
-use crate::{ENVIRONMENTS, data_table, environment, mirrored, numbers, relative_errors, share};
+use crate::{ENVIRONMENTS, data_table, environment, full, mirrored, numbers, relative_errors, share};
 use halfvector_ibl::{BakeOptions, Equirect, Source, bake, equirect_texel_solid_angle};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-const SIZES: [usize; 4] = [64, 96, 128, 192];
+/// The last two only with `HALFVECTOR_FULL=1`.
+const SIZES: [usize; 5] = [64, 256, 448, 384, 512];
 
 /// Irradiance over pi by a sum over the texels of a map, each constant and with its exact solid angle.
 ///
@@ -77,8 +78,8 @@ fn direction(k: usize) -> [f64; 3] {
     [across * phi.cos(), y, across * phi.sin()]
 }
 
-/// Worst error of each size of the cube, at 500 directions (2,000 with `HALFVECTOR_FULL=1`). Where a small lamp sets on a black
-/// ground single directions are off by more than the rest: the linear mix and the series both round off the kink.
+/// Worst error of each size of the cube, at 500 directions (20,000 with `HALFVECTOR_FULL=1`). Where a small lamp sets on a black
+/// ground single directions are off by more than the rest: the linear mix rounds off the kink.
 #[test]
 fn sizes_of_the_cube() {
     for name in ENVIRONMENTS {
@@ -88,14 +89,14 @@ fn sizes_of_the_cube() {
         };
         let Source::Equirect(map) = &environment.source else { unreachable!("the tables belong to maps") };
         let (truth, mean) = (Truth::new(map), map.mean());
-        let directions: Vec<[f64; 3]> = (0..share(2000)).map(direction).collect();
+        let directions: Vec<[f64; 3]> = (0..if full() { 20_000 } else { 500 }).map(direction).collect();
         let expected: Vec<[f64; 3]> = directions.par_iter().map(|&dir| truth.at(dir)).collect();
         for row in &table {
             let (found, table) = (truth.at(mirrored(numbers(row, 1))), numbers(row, 4));
             let worst = relative_errors(found.map(|x| x as f32), table, mean).into_iter().fold(0.0, f64::max);
             assert!(worst < 1e-3, "{name}: the sum is off the table by {worst}");
         }
-        for size in SIZES {
+        for size in SIZES.into_iter().take(if full() { 5 } else { 3 }) {
             let options = BakeOptions { size: 8, levels: Some(1), irradiance_size: size, ..BakeOptions::default() };
             let cube = bake(&environment, &options).irradiance_over_pi;
             let worst = |errors: &mut dyn Iterator<Item = [f64; 3]>| errors.flatten().fold(0.0, f64::max);
@@ -137,7 +138,7 @@ fn sizes_of_the_cube() {
                 100.0 * rms
             );
             if size == BakeOptions::default().irradiance_size {
-                assert!(at_centres < 5e-3 && at_table < 2e-3 && rms < 1e-3, "{name}");
+                assert!(at_centres < 2e-3 && at_table < 2e-3 && anywhere < 5e-3, "{name}");
             }
         }
     }
