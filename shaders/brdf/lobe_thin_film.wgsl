@@ -30,8 +30,9 @@ fn thin_film_cosine(dfg: vec2f) -> f32 {
     return 1.0 - exp2(0.2 * log2(mean));
 }
 
-/// What a film changes of the light that passes the base: (1 - `film`) / (1 - `bare`), both reflectances at one cosine.
-/// Held in [0, 4].
-fn thin_film_through(film: vec3f, bare: vec3f) -> vec3f {
+/// What a film of the reflectance `film` changes of the light that passes the base: (1 - `film`) / (1 - F), both
+/// reflectances at one cosine. Held in [0, 4].
+fn thin_film_through(film: vec3f, f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
+    let bare = f_schlick(f0, f90, l_dot_h);
     return clamp((1.0 - film) / max(1.0 - bare, vec3f(1e-3)), vec3f(0.0), vec3f(4.0));
 }

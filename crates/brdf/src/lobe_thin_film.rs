@@ -45,11 +45,13 @@ pub fn thin_film_cosine<R: Real>(dfg: [R; 2]) -> R {
     R::ONE - (R::of(0.2) * mean.log2()).exp2()
 }
 
-/// What a film changes of the light that passes the base: (1 - `film`) / (1 - `bare`), both reflectances at one cosine.
+/// What a film of the reflectance `film` changes of the light that passes the base: (1 - `film`) / (1 - F), both
+/// reflectances at one cosine.
 ///
 /// Held in [0, 4]: at grazing incidence both are 0.
 #[inline]
-pub fn thin_film_through<R: Real>(film: [R; 3], bare: [R; 3]) -> [R; 3] {
+pub fn thin_film_through<R: Real>(film: [R; 3], f0: [R; 3], f90: [R; 3], l_dot_h: R) -> [R; 3] {
+    let bare = f_schlick(f0, f90, l_dot_h);
     [0, 1, 2].map(|i| {
         let through = (R::ONE - film[i]) / (R::ONE - bare[i]).max(R::of(1e-3));
         through.clamp(R::ZERO, R::of(4.0))

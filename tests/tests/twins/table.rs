@@ -231,7 +231,7 @@ pub(crate) const TWINS: &[Twin] = &[
     // Half vectors of refraction are short where v and -l are near each other: their rounding is that much larger.
     twin!("brdf/lobe_thin_film.wgsl" "thin_film_cosine", [Pair(0.0, 0.5)], 4096.0, 1.0, FLOAT, |x| [thin_film_cosine(v(x, 0))]),
     twin!("brdf/lobe_thin_film.wgsl" "thin_film_fresnel", [Reflectances(0.9), Range(-0.5, 1.5), Range(0.0, 1000.0), Range(1.0, 3.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film_fresnel(v(x, 0), v(x, 3), film(x, 6), x[9])),
-    twin!("brdf/lobe_thin_film.wgsl" "thin_film_through", [Color(0.0, 1.0), Color(0.0, 0.9)], 16.0, 1.0, DOUBLE, |x| thin_film_through(v(x, 0), v(x, 3))),
+    twin!("brdf/lobe_thin_film.wgsl" "thin_film_through", [Color(0.0, 1.0), Reflectances(0.9), Range(0.3, 1.0)], 256.0, 1.0, DOUBLE, |x| thin_film_through(v(x, 0), v(x, 3), v(x, 6), x[9])),
     twin!("brdf/lobe_transmission.wgsl" "f0_of_sheet", [Range(0.0, 1.0), Range(0.0, 1.0)], 8.0, 0.0, DOUBLE, |x| [f0_of_sheet(x[0], x[1])]),
     twin!("brdf/lobe_transmission.wgsl" "transmission_direction", [Frame, Range(0.4, 2.5)], 4096.0, 1.0, DOUBLE, |x| transmission_direction(frame(x), x[7])),
     twin!("brdf/lobe_transmission.wgsl" "transmission_environment", [Color(0.0, 1.0), Range(0.4, 2.5), Alpha, Range(0.0, 0.2), Color(0.0, 1e4), Pair(0.0, 0.5)], 8.0, 1.0, DOUBLE, |x| transmission_environment(transmitted(x, 0), x[5], v(x, 6), v(x, 9))),

@@ -242,8 +242,8 @@ impl Shading<'_, '_, '_> {
         self.line(&format!("let film_cosine = {cosine}(dfg);"));
         self.line(&format!("let film_fresnel = {fresnel}({f0}, {f90}, film, film_cosine);"));
         if plan.transmission {
-            let (through, schlick) = (self.writer.library("thin_film_through")?, self.writer.library("f_schlick")?);
-            self.line(&format!("let film_through = {through}(film_fresnel, {schlick}({f0}, {f90}, film_cosine));"));
+            let through = self.writer.library("thin_film_through")?;
+            self.line(&format!("let film_through = {through}(film_fresnel, {f0}, {f90}, film_cosine);"));
         }
         Ok(())
     }
