@@ -5,6 +5,7 @@ pub mod energy;
 pub mod ibl;
 pub mod maps;
 pub mod mips;
+pub mod precision;
 mod split_sum;
 
 use crate::{Effort, Row};
@@ -17,6 +18,22 @@ pub struct Part {
     pub rows: fn(Effort) -> Vec<Row>,
 }
 
+impl Part {
+    /// About how long it takes on two cores [s]; parts that are not named here are quick.
+    pub fn seconds(&self, effort: Effort) -> f64 {
+        let [quick, full] = match self.name {
+            "brdf" => [0.3, 20.0],
+            "energy" => [2.0, 10.0],
+            "ibl" => [27.0, 400.0],
+            _ => [0.5, 5.0],
+        };
+        match effort {
+            Effort::Quick => quick,
+            Effort::Full => full,
+        }
+    }
+}
+
 /// All parts, in the order shown.
 pub const PARTS: &[Part] = &[
     Part { name: "brdf", rows: brdf::rows },
@@ -24,4 +41,5 @@ pub const PARTS: &[Part] = &[
     Part { name: "maps", rows: maps::rows },
     Part { name: "mips", rows: mips::rows },
     Part { name: "ibl", rows: ibl::rows },
+    Part { name: "precision", rows: precision::rows },
 ];
