@@ -107,7 +107,7 @@ impl Run {
 #[test]
 fn every_command_has_help_with_an_example() {
     let folder = Folder::new();
-    for command in ["", "render", "export", "check", "bake", "nodes", "methods"] {
+    for command in ["", "render", "export", "check", "bake", "nodes", "methods", "report"] {
         let arguments: Vec<_> = [command, "--help"].into_iter().filter(|a| !a.is_empty()).collect();
         let help = folder.run(&arguments).ends(0).stdout;
         assert!(help.contains("Example") && help.contains("halfvector"), "{command}: {help}");
@@ -246,7 +246,7 @@ fn lists_are_one_json_object() {
     assert!(nodes.stderr.is_empty());
     let methods = folder.run(&["methods", "--format", "json"]).ends(0).json();
     assert!(methods["methods"].as_array().is_some_and(|list| !list.is_empty()));
-    for command in ["nodes", "methods"] {
+    for command in ["nodes", "methods", "report"] {
         assert!(folder.run(&[command]).ends(0).stdout.starts_with("# "));
     }
 }
@@ -295,6 +295,29 @@ fn export_writes_each_target() {
     assert!(explained["dropped"].as_array().is_some_and(|list| !list.is_empty()), "{explained}");
     let lit = std::fs::read_to_string(folder.path("lit/plain.wgsl")).expect("the shader");
     assert!(lit.contains("texture_cube"), "{lit}");
+}
+
+#[test]
+fn a_report_is_compared_with_an_older_one() {
+    let folder = Folder::new();
+    let report = |more: &[&str]| folder.run(&[&["report", "--quick", "--only", "mips", "-o", "out"], more].concat());
+    report(&[]).ends(0).says("index.html");
+    let text = |name: &str| std::fs::read_to_string(folder.path(name)).expect("written");
+    assert!(text("out/index.html").contains("<svg") && text("out/mips.csv").starts_with("term,method,"));
+    let mut old: serde_json::Value = serde_json::from_str(&text("out/report.json")).expect("JSON");
+    // Times of a busy machine: none is compared.
+    for row in old["rows"].as_array_mut().expect("rows") {
+        row["cost_ns"] = serde_json::Value::Null;
+    }
+    folder.write("old.json", &old.to_string());
+    report(&["--compare", "old.json"]).ends(0);
+    old["rows"][0]["error_rms"] = 1e-3.into();
+    folder.write("old.json", &old.to_string());
+    let run = report(&["--compare", "old.json"]).ends(3).says("figures that are worse: 1");
+    assert!(run.stdout.contains("less accurate: normal_mips"), "{}", run.stdout);
+    folder.write("old.json", "{}");
+    report(&["--compare", "old.json"]).ends(1).says("it is not a report");
+    folder.run(&["report", "--only", "paint", "-o", "out"]).ends(2);
 }
 
 #[test]

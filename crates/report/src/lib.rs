@@ -3,21 +3,33 @@
 //! * [`PARTS`] lists what is measured; a part is one file of `part/`, a function from [`Effort`] to rows.
 //! * Errors are against f64 truth and come out the same on every run. Times are medians of interleaved runs
 //!   ([`timing`]), to be read as ratios within one report.
-//! * [`write`] turns rows into JSON and CSV text.
+//! * [`Report`] is a run: rows, machine, day. [`comparison`] weighs methods against each other, [`compare`] holds two runs
+//!   against each other.
+//! * [`page`] makes the HTML page, [`plot`] its plots, [`write`] the CSV.
 //!
 //! The crate writes no file and knows no command line.
 
+pub mod compare;
+pub mod comparison;
 pub mod error;
+pub mod page;
 pub mod part;
+pub mod plot;
+mod report;
 mod row;
+mod terms;
 pub mod timing;
+pub mod words;
 pub mod write;
 
+pub use comparison::mark_pareto;
 pub use part::{PARTS, Part};
-pub use row::{Row, mark_pareto};
+pub use report::{Report, ReportError};
+pub use row::Row;
 
 /// How long to measure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Effort {
     /// Fewer points and runs: the whole report within two minutes on two cores.
     Quick,

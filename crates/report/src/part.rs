@@ -6,6 +6,7 @@ pub mod ibl;
 pub mod lobes;
 pub mod maps;
 pub mod mips;
+pub mod precision;
 mod split_sum;
 
 use crate::{Effort, Row};
@@ -18,6 +19,22 @@ pub struct Part {
     pub rows: fn(Effort) -> Vec<Row>,
 }
 
+impl Part {
+    /// About how long it takes on two cores [s]; parts that are not named here are quick.
+    pub fn seconds(&self, effort: Effort) -> f64 {
+        let [quick, full] = match self.name {
+            "brdf" => [0.3, 20.0],
+            "energy" => [2.0, 10.0],
+            "ibl" => [27.0, 400.0],
+            _ => [0.5, 5.0],
+        };
+        match effort {
+            Effort::Quick => quick,
+            Effort::Full => full,
+        }
+    }
+}
+
 /// All parts, in the order shown.
 pub const PARTS: &[Part] = &[
     Part { name: "brdf", rows: brdf::rows },
@@ -26,4 +43,5 @@ pub const PARTS: &[Part] = &[
     Part { name: "mips", rows: mips::rows },
     Part { name: "ibl", rows: ibl::rows },
     Part { name: "lobes", rows: lobes::rows },
+    Part { name: "precision", rows: precision::rows },
 ];

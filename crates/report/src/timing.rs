@@ -6,8 +6,17 @@ use std::time::Instant;
 /// A candidate: what is run. It returns something of its result, so that the work is not optimised away.
 pub type Candidate<'a> = &'a mut dyn FnMut() -> f64;
 
-/// Median seconds of one run of each candidate over `rounds` interleaved rounds, after one round that warms up.
-pub fn interleaved(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<f64> {
+/// How long a candidate takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Time {
+    /// The median of the rounds [s].
+    pub seconds: f64,
+    /// Half the distance of the quartiles, over the median; none of fewer than four rounds.
+    pub spread: Option<f64>,
+}
+
+/// Times one run of each candidate over `rounds` interleaved rounds, after one round that warms up.
+pub fn measured(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<Time> {
     let mut seconds = vec![Vec::with_capacity(rounds); candidates.len()];
     for round in 0..=rounds {
         for (candidate, seconds) in candidates.iter_mut().zip(&mut seconds) {
@@ -18,7 +27,21 @@ pub fn interleaved(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<f64> 
             }
         }
     }
-    seconds.into_iter().map(median).collect()
+    seconds.into_iter().map(time).collect()
+}
+
+/// The medians of [`measured`] [s].
+pub fn interleaved(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<f64> {
+    measured(candidates, rounds).iter().map(|time| time.seconds).collect()
+}
+
+fn time(mut seconds: Vec<f64>) -> Time {
+    seconds.sort_by(f64::total_cmp);
+    let quarter = seconds.len() / 4;
+    let middle = median(seconds.clone());
+    let spread =
+        (quarter > 0 && middle > 0.0).then(|| 0.5 * (seconds[seconds.len() - 1 - quarter] - seconds[quarter]) / middle);
+    Time { seconds: middle, spread }
 }
 
 /// The middle number, or the mean of the two middle ones; 0 for none.
@@ -43,5 +66,12 @@ mod tests {
         assert!(seconds[0] < seconds[1], "{seconds:?}");
         assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
         assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), 2.5);
+    }
+
+    #[test]
+    fn the_spread_is_that_of_the_inner_half() {
+        let eight = time(vec![1.0, 100.0, 9.0, 10.0, 10.0, 11.0, 12.0, 8.0]);
+        assert_eq!((eight.seconds, eight.spread), (10.0, Some(0.1)));
+        assert_eq!(time(vec![1.0, 2.0, 3.0]).spread, None);
     }
 }

@@ -1,16 +1,12 @@
-//! Rows as text.
+//! Rows as text, and what is known of the machine and the day.
 
 use crate::Row;
-
-/// The report as one JSON object: `{"schema": 1, "machine": ..., "rows": [...]}`.
-pub fn json(machine: &str, rows: &[Row]) -> serde_json::Value {
-    serde_json::json!({ "schema": 1, "machine": machine, "rows": rows })
-}
 
 /// The rows as CSV, with a line of names; a figure that does not apply is empty.
 pub fn csv(rows: &[Row]) -> String {
     let mut text =
-        "term,method,domain,error_max,error_rms,at,cost_ns,cost_batch_ns,instructions,gpu_ns,gpu,bytes,pareto\n"
+        "term,method,domain,error_max,error_rms,at,not_finite,first_failure,cost_ns,cost_batch_ns,cost_spread,instructions,\
+         gpu_ns,gpu,bytes,pareto\n"
             .to_owned();
     for row in rows {
         let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:e}"));
@@ -23,8 +19,11 @@ pub fn csv(rows: &[Row]) -> String {
             number(row.error_max),
             number(row.error_rms),
             word(&row.at),
+            count(row.not_finite),
+            word(&row.first_failure),
             number(row.cost_ns),
             number(row.cost_batch_ns),
+            number(row.cost_spread),
             count(row.instructions),
             number(row.gpu_ns),
             word(&row.gpu),
@@ -52,6 +51,26 @@ pub fn machine() -> String {
     format!("{}, {cores} cores, {}", cpu.as_deref().unwrap_or(std::env::consts::ARCH), std::env::consts::OS)
 }
 
+/// The day, UTC: 2026-05-31.
+pub fn today() -> String {
+    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
+    day(now.as_secs() / 86_400)
+}
+
+/// The date of a day after 1970-01-01. Howard Hinnant 2013, "chrono-Compatible Low-Level Date Algorithms": eras of 400
+/// years that begin in March, so that the leap day is a year's last.
+fn day(since_1970: u64) -> String {
+    let days = since_1970 + 719_468;
+    let (era, day_of_era) = (days / 146_097, days % 146_097);
+    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let from_march = (5 * day_of_year + 2) / 153;
+    let day = day_of_year - (153 * from_march + 2) / 5 + 1;
+    let month = if from_march < 10 { from_march + 3 } else { from_march - 9 };
+    let year = 400 * era + year_of_era + u64::from(month <= 2);
+    format!("{year:04}-{month:02}-{day:02}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,9 +79,15 @@ mod tests {
     fn text_with_commas_stays_one_field() {
         let row = Row { at: Some("n.v = 0, \"floor\"".into()), error_max: Some(0.5), ..Row::new("d", "ggx", "a, b") };
         let text = csv(std::slice::from_ref(&row));
-        assert_eq!(text.lines().nth(1), Some("d,ggx,\"a, b\",5e-1,,\"n.v = 0, \"\"floor\"\"\",,,,,,,false"));
-        let back: Row =
-            serde_json::from_value(json("here", std::slice::from_ref(&row))["rows"][0].clone()).expect("a row");
-        assert_eq!(back, row);
+        assert_eq!(text.lines().nth(1), Some("d,ggx,\"a, b\",5e-1,,\"n.v = 0, \"\"floor\"\"\",,,,,,,,,,false"));
+        let columns = |line: usize| {
+            text.lines().nth(line).map(|line| line.replace("a, b", "").replace("0, ", "").split(',').count())
+        };
+        assert_eq!(columns(0), columns(1));
+    }
+
+    #[test]
+    fn days_have_their_dates() {
+        assert_eq!([0, 11_016, 11_017, 20_603].map(day), ["1970-01-01", "2000-02-29", "2000-03-01", "2026-05-30"]);
     }
 }

@@ -1,17 +1,24 @@
 //! `halfvector report`: speed against error of every method, measured here and now.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use halfvector_report::{Effort, PARTS, mark_pareto, write};
+use halfvector_report::{Effort, PARTS, Report, compare, mark_pareto, page, write};
 
-use crate::failure::Failure;
-use crate::output::{check_place, note, write_file};
+use crate::failure::{FOUND, Failure};
+use crate::output::{check_place, note, print, write_file};
 
-/// Measures speed and error of every method on this machine and writes report.json and one CSV file per part.
+/// Measures speed and error of every method on this machine and writes a page with plots, report.json and CSV files.
+///
+/// The files are written anew after each part: what is measured stays when the command is interrupted.
 #[derive(clap::Args, Debug)]
-#[command(after_help = "Example:\n  halfvector report --quick -o out/report")]
+#[command(after_help = "Examples:
+  halfvector report --quick -o out/report
+  halfvector report --quick --compare out/report/report.json -o out/new
+
+Exit code 3: --compare found something slower or less accurate.")]
 pub(crate) struct ReportArgs {
-    /// Folder for the files
+    /// Folder for index.html, report.json and the CSV files
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Fewer points and runs: at most two minutes on two cores
@@ -20,24 +27,59 @@ pub(crate) struct ReportArgs {
     /// Measures one part only
     #[arg(long, value_name = "PART", value_parser = clap::builder::PossibleValuesParser::new(PARTS.iter().map(|p| p.name)))]
     only: Option<String>,
+    /// Lists what became slower or less accurate than in this report.json, beyond noise
+    #[arg(long, value_name = "OLD.json")]
+    compare: Option<PathBuf>,
 }
 
 /// Runs the command.
 pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     check_place(&args.output.join("report.json"))?;
+    // Before the work: a wrong file is told at once, and it may be the one that is written.
+    let old = args.compare.as_deref().map(read).transpose()?;
     let effort = if args.quick { Effort::Quick } else { Effort::Full };
-    let parts = PARTS.iter().filter(|part| args.only.as_deref().is_none_or(|only| only == part.name));
-    let mut all = Vec::new();
-    for part in parts {
-        let bar = crate::output::progress(part.name);
+    let parts: Vec<_> = PARTS.iter().filter(|part| args.only.as_deref().is_none_or(|only| only == part.name)).collect();
+    let mut report = Report::begun(effort);
+    let start = Instant::now();
+    for (done, part) in parts.iter().enumerate() {
+        let left: f64 = parts[done..].iter().map(|part| part.seconds(effort)).sum();
+        let bar = crate::output::progress(&format!("{}, about {} left", part.name, in_words(left)));
+        let all: f64 = parts.iter().map(|part| part.seconds(effort)).sum();
+        bar.set_position((1000.0 * (1.0 - left / all)) as u64);
         let mut rows = (part.rows)(effort);
         bar.finish_and_clear();
         mark_pareto(&mut rows);
         write_file(&args.output.join(format!("{}.csv", part.name)), write::csv(&rows).as_bytes())?;
         note(format_args!("{}: {} rows", part.name, rows.len()));
-        all.append(&mut rows);
+        report.rows.append(&mut rows);
+        report.parts.push(part.name.to_owned());
+        write_file(&args.output.join("report.json"), report.to_json().as_bytes())?;
+        write_file(&args.output.join("index.html"), page::html(&report).as_bytes())?;
     }
-    let report = write::json(&write::machine(), &all);
-    write_file(&args.output.join("report.json"), format!("{report:#}\n").as_bytes())?;
-    Ok(0)
+    let page = args.output.join("index.html");
+    note(format_args!("{} after {}", page.display(), in_words(start.elapsed().as_secs_f64())));
+    let Some(old) = old else { return Ok(0) };
+    if old.effort != report.effort {
+        note("the old report drew other points (--quick or not): errors are not compared, times are");
+    }
+    let changes = compare::changes(&old, &report);
+    for change in &changes {
+        print(&change.to_string())?;
+    }
+    note(format_args!("figures that are worse: {}, since {}", changes.len(), old.date));
+    Ok(if changes.is_empty() { 0 } else { FOUND })
+}
+
+/// 40 s, or 3 min.
+fn in_words(seconds: f64) -> String {
+    if seconds < 90.0 { format!("{:.0} s", seconds.ceil()) } else { format!("{:.0} min", (seconds / 60.0).ceil()) }
+}
+
+fn read(path: &Path) -> Result<Report, Failure> {
+    let wrong = |why: &dyn std::fmt::Display| {
+        let remedy = "a report.json that `halfvector report` wrote";
+        Failure::input("the old report cannot be read").at(path).because(why).try_to(remedy)
+    };
+    let text = std::fs::read_to_string(path).map_err(|error| wrong(&error))?;
+    Report::from_json(&text).map_err(|error| wrong(&error))
 }

@@ -2,7 +2,7 @@
 //! and of an element of a batch with the widest vectors of the machine.
 
 use crate::error::Errors;
-use crate::timing::interleaved;
+use crate::timing::measured;
 use crate::{Effort, Row};
 use halfvector_brdf::Real;
 use halfvector_brdf::anisotropic::{d_ggx_anisotropic, v_smith_ggx_anisotropic};
@@ -120,8 +120,8 @@ impl<const N: usize> Group<N> {
             }));
         }
         let mut candidates: Vec<_> = runs.iter_mut().map(|run| run.as_mut() as &mut dyn FnMut() -> f64).collect();
-        let seconds = interleaved(&mut candidates, effort.pick(20, 200));
-        let ns = |run: usize| Some(seconds[run] * 1e9 / points.len() as f64);
+        let times = measured(&mut candidates, effort.pick(20, 200));
+        let ns = |run: usize| Some(times[run].seconds * 1e9 / points.len() as f64);
 
         let mut rows = Vec::new();
         for against in against {
@@ -140,6 +140,7 @@ impl<const N: usize> Group<N> {
                 let mut row = Row::new(self.term, form.name, &domain);
                 errors.fill(&mut row);
                 (row.cost_ns, row.cost_batch_ns) = (ns(2 * i), ns(2 * i + 1));
+                row.cost_spread = times[2 * i].spread;
                 rows.push(row);
             }
         }

@@ -3,7 +3,7 @@
 
 use super::split_sum;
 use crate::error::Errors;
-use crate::timing::interleaved;
+use crate::timing::measured;
 use crate::{Effort, Row};
 use halfvector_ibl::environment::{
     environment_sample, environment_sample_hermite, irradiance_sh2, lod_geometric, lod_linear, lod_report,
@@ -56,11 +56,11 @@ fn levels(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Q
     let mut runs: Vec<_> =
         cases.iter().map(|(_, options)| || f64::from(bake(environment, options).irradiance_sh[0][0])).collect();
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
-    let seconds = interleaved(&mut candidates, effort.pick(1, 5));
+    let times = measured(&mut candidates, effort.pick(1, 5));
     cases
         .iter()
-        .zip(seconds)
-        .map(|((method, options), seconds)| {
+        .zip(times)
+        .map(|((method, options), time)| {
             let baked = bake(environment, options);
             let mut errors = Errors::default();
             for k in 0..effort.pick(24, 400) {
@@ -79,7 +79,7 @@ fn levels(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Q
             let texels: usize = baked.radiance.iter().map(|cube| cube.texels.len()).sum();
             let mut row = Row::new("prefilter", method, &domain);
             errors.fill(&mut row);
-            row.cost_batch_ns = Some(seconds * 1e9 / texels as f64);
+            (row.cost_batch_ns, row.cost_spread) = (Some(time.seconds * 1e9 / texels as f64), time.spread);
             row.bytes = Some(8 * texels as u64);
             row
         })
@@ -141,11 +141,11 @@ fn seen(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Qua
         .map(|(_, _, read)| || points.iter().map(|&(dir, roughness)| f64::from(read(dir, roughness)[0])).sum::<f64>())
         .collect();
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
-    let seconds = interleaved(&mut candidates, effort.pick(20, 50));
+    let times = measured(&mut candidates, effort.pick(20, 50));
     methods
         .iter()
-        .zip(seconds)
-        .map(|((method, baked, read), seconds)| {
+        .zip(times)
+        .map(|((method, baked, read), time)| {
             let mut errors = Errors::default();
             for (&(dir, roughness), &expected) in points.iter().zip(&expected) {
                 let at = || format!("roughness {roughness:.3}, {dir:.3?}");
@@ -153,7 +153,7 @@ fn seen(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Qua
             }
             let mut row = Row::new("level_map", method, &domain);
             errors.fill(&mut row);
-            row.cost_ns = Some(seconds * 1e9 / points.len() as f64);
+            (row.cost_ns, row.cost_spread) = (Some(time.seconds * 1e9 / points.len() as f64), time.spread);
             row.bytes = Some(8 * baked.radiance.iter().map(|cube| cube.texels.len() as u64).sum::<u64>());
             row
         })
@@ -181,18 +181,18 @@ fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &
     let mut runs: Vec<_> =
         methods.iter().map(|(_, _, read)| || points.iter().map(|&dir| f64::from(read(dir)[0])).sum::<f64>()).collect();
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
-    let seconds = interleaved(&mut candidates, effort.pick(20, 50));
+    let times = measured(&mut candidates, effort.pick(20, 50));
     methods
         .iter()
-        .zip(seconds)
-        .map(|((method, bytes, read), seconds)| {
+        .zip(times)
+        .map(|((method, bytes, read), time)| {
             let mut errors = Errors::default();
             for (&dir, &expected) in points.iter().zip(&expected) {
                 add(&mut errors, read(dir), expected, truth.mean(), || format!("{dir:.3?}"));
             }
             let mut row = Row::new("irradiance", method, &domain);
             errors.fill(&mut row);
-            row.cost_ns = Some(seconds * 1e9 / points.len() as f64);
+            (row.cost_ns, row.cost_spread) = (Some(time.seconds * 1e9 / points.len() as f64), time.spread);
             row.bytes = Some(*bytes);
             row
         })

@@ -8,7 +8,7 @@ use halfvector_maps::derivative::{normal_from_slopes, normal_tbn_derivative};
 use halfvector_maps::normal::{normal_rotation_fixed, normal_rotation_report, normal_tbn};
 
 use crate::error::Errors;
-use crate::timing::interleaved;
+use crate::timing::measured;
 use crate::{Effort, Row};
 
 /// normal, method, tilt [deg], mean, rms and largest error [deg].
@@ -74,8 +74,8 @@ fn costs(effort: Effort) -> Vec<Cost> {
         whole(count, |out| batch::normals_rotation_fixed(n_tangent, normal, out)),
     ];
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
-    let seconds = interleaved(&mut candidates, effort.pick(20, 200));
-    let ns = |i: usize| seconds[i] * 1e9 / count as f64;
+    let times = measured(&mut candidates, effort.pick(20, 200));
+    let ns = |i: usize| times[i].seconds * 1e9 / count as f64;
     vec![
         Cost { method: "tbn", single: ns(0), batch: Some(ns(4)) },
         Cost { method: "tbn_derivative", single: ns(1), batch: None },
@@ -138,10 +138,10 @@ fn blends(effort: Effort) -> Vec<Row> {
         .map(|(_, blend)| || pairs.iter().map(|&(base, detail)| f64::from(blend(base, detail)[0])).sum::<f64>())
         .collect();
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
-    let seconds = interleaved(&mut candidates, effort.pick(20, 200));
-    let measured = BLENDS.iter().zip(seconds);
+    let times = measured(&mut candidates, effort.pick(20, 200));
+    let measured = BLENDS.iter().zip(times);
     measured
-        .map(|((name, blend), seconds)| {
+        .map(|((name, blend), time)| {
             let mut errors = Errors::default();
             for (i, &(base, detail)) in pairs.iter().enumerate() {
                 let slopes = at(i).map(f64::from);
@@ -152,7 +152,7 @@ fn blends(effort: Effort) -> Vec<Row> {
             }
             let mut row = Row::new("normal_blend", name, DOMAIN);
             errors.fill(&mut row);
-            row.cost_ns = Some(seconds * 1e9 / count as f64);
+            (row.cost_ns, row.cost_spread) = (Some(time.seconds * 1e9 / count as f64), time.spread);
             row
         })
         .collect()

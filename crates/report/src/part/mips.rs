@@ -2,7 +2,7 @@
 //! level's lobes.
 
 use crate::error::Errors;
-use crate::timing::interleaved;
+use crate::timing::{Time, measured};
 use crate::{Effort, Row};
 use halfvector_maps::lost_length::{Rule, Spread, lobe_error};
 
@@ -27,11 +27,11 @@ pub fn rows(effort: Effort) -> Vec<Row> {
     let mut runs: Vec<_> =
         methods.iter().map(|(_, rule)| || (0..256).map(|i| rule(0.2, spread(i))).sum::<f64>()).collect();
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
-    let seconds = interleaved(&mut candidates, effort.pick(20, 200));
+    let times = measured(&mut candidates, effort.pick(20, 200));
 
     let cells = effort.pick(48, 128);
     let surfaces = surfaces();
-    let row = |((name, rule), seconds): (&Method, f64)| {
+    let row = |((name, rule), time): (&Method, Time)| {
         let mut errors = Errors::default();
         for (surface, normals) in &surfaces {
             for roughness in [0.3_f64, 0.5, 0.7] {
@@ -42,10 +42,10 @@ pub fn rows(effort: Effort) -> Vec<Row> {
         }
         let mut row = Row::new("normal_mips", name, DOMAIN);
         errors.fill(&mut row);
-        row.cost_ns = Some(seconds * 1e9 / 256.0);
+        (row.cost_ns, row.cost_spread) = (Some(time.seconds * 1e9 / 256.0), time.spread);
         row
     };
-    methods.iter().zip(seconds).map(row).collect()
+    methods.iter().zip(times).map(row).collect()
 }
 
 /// Footprints of made surfaces, by name.

@@ -1,0 +1,160 @@
+//! Two reports: what became slower or less accurate, beyond noise.
+
+use std::collections::HashSet;
+use std::fmt;
+
+use crate::timing::median;
+use crate::{Report, Row};
+
+/// An error may differ by this part, for the elementary functions of another system.
+const ERROR_NOISE: f64 = 0.05;
+/// Errors below this are rounding of f64.
+const ERROR_FLOOR: f64 = 1e-9;
+/// A time may differ by this part and by four times the spreads of both runs.
+const TIME_NOISE: f64 = 0.15;
+/// The spread of a time that does not say its own.
+const UNKNOWN_SPREAD: f64 = 0.1;
+
+/// Something that became worse.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// What: `slower`, `less accurate`, `more results that are no numbers`, `gone`.
+    pub what: &'static str,
+    /// The row, as it was.
+    pub term: String,
+    /// Its method.
+    pub method: String,
+    /// Its inputs.
+    pub domain: String,
+    /// The figure before and now, with what noise allows, in words.
+    pub figures: String,
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {} {}: {} ({})", self.what, self.term, self.method, self.figures, self.domain)
+    }
+}
+
+impl Change {
+    fn of(what: &'static str, row: &Row, figures: String) -> Change {
+        let [term, method, domain] = [&row.term, &row.method, &row.domain].map(String::clone);
+        Change { what, term, method, domain, figures }
+    }
+}
+
+/// What is worse in `new` than in `old`, among the rows of the parts that both hold.
+///
+/// Times are compared as ratios: the machine's own speed, which is the median of all ratios, is divided out, so that two
+/// machines can be compared, and what all methods lose together is not seen. Errors are compared only when both
+/// reports drew the same points, which they do when their efforts are the same.
+pub fn changes(old: &Report, new: &Report) -> Vec<Change> {
+    let key = |row: &Row| (row.term.clone(), row.method.clone(), row.domain.clone());
+    let of = |part: &Row| new.rows.iter().find(|row| key(row) == key(part));
+    let pairs: Vec<(&Row, &Row)> = old.rows.iter().filter_map(|row| Some((row, of(row)?))).collect();
+    let mut changes = slower(&pairs);
+    if old.effort == new.effort {
+        changes.extend(pairs.iter().flat_map(|&(old, new)| less_accurate(old, new)));
+    }
+    let terms: HashSet<&str> = new.rows.iter().map(|row| row.term.as_str()).collect();
+    let gone = old.rows.iter().filter(|row| terms.contains(row.term.as_str()) && of(row).is_none());
+    changes.extend(gone.map(|row| Change::of("gone", row, "it has no row any more".to_owned())));
+    changes
+}
+
+fn slower(pairs: &[(&Row, &Row)]) -> Vec<Change> {
+    let kinds: [(&str, fn(&Row) -> Option<f64>); 2] =
+        [("one call", |row| row.cost_ns), ("an element of a batch", |row| row.cost_batch_ns)];
+    let ratio = |cost: fn(&Row) -> Option<f64>, old, new| Some(cost(new)? / cost(old)?).filter(|x| x.is_finite());
+    let all = pairs.iter().flat_map(|&(old, new)| kinds.iter().filter_map(move |(_, cost)| ratio(*cost, old, new)));
+    let machine = median(all.collect());
+    let mut changes = Vec::new();
+    // The same time stands in the rows of all domains of a method.
+    let mut told = HashSet::new();
+    for &(old, new) in pairs {
+        for (name, cost) in kinds {
+            let (Some(before), Some(now), Some(ratio)) = (cost(old), cost(new), ratio(cost, old, new)) else {
+                continue;
+            };
+            let spread = |row: &Row| row.cost_spread.unwrap_or(UNKNOWN_SPREAD);
+            let allowed = 1.0 + TIME_NOISE + 4.0 * (spread(old) + spread(new));
+            if ratio > allowed * machine && told.insert((&old.term, &old.method, before.to_bits())) {
+                let figures = format!(
+                    "{name} takes {now:.3} ns, was {before:.3} ns; {:.2} times as long beside the other methods, noise allows \
+                     {allowed:.2}",
+                    ratio / machine
+                );
+                changes.push(Change::of("slower", old, figures));
+            }
+        }
+    }
+    changes
+}
+
+fn less_accurate(old: &Row, new: &Row) -> Vec<Change> {
+    let mut changes = Vec::new();
+    let kinds: [(&str, fn(&Row) -> Option<f64>); 2] =
+        [("rms error", |row| row.error_rms), ("largest error", |row| row.error_max)];
+    for (name, error) in kinds {
+        // An infinite error is null in the file: a row that had a finite one has lost it.
+        let now = error(new).unwrap_or(f64::INFINITY);
+        if let Some(before) = error(old)
+            && now > before * (1.0 + ERROR_NOISE) + ERROR_FLOOR
+        {
+            changes.push(Change::of("less accurate", old, format!("{name} {now:.3e}, was {before:.3e}")));
+            break;
+        }
+    }
+    let count = |row: &Row| row.not_finite.unwrap_or(0);
+    if count(new) > count(old) {
+        let figures = format!("{}, were {}", count(new), count(old));
+        changes.push(Change::of("more results that are no numbers", old, figures));
+    }
+    changes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Effort;
+
+    fn report(times: [f64; 3], errors: [f64; 3]) -> Report {
+        let mut report = Report::begun(Effort::Quick);
+        report.rows = (0..3)
+            .map(|i| Row {
+                cost_ns: Some(times[i]),
+                cost_spread: Some(0.01),
+                error_rms: Some(errors[i]),
+                ..Row::new("d", ["a", "b", "c"][i], "all")
+            })
+            .collect();
+        report
+    }
+
+    #[test]
+    fn only_what_is_worse_beyond_noise_is_told() {
+        let old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.0]);
+        assert_eq!(changes(&old, &old), []);
+        // Another machine: three times as slow throughout, a little noise.
+        assert_eq!(changes(&old, &report([3.0, 6.3, 12.0], [0.1, 0.2, 1e-12])), []);
+        let worse = changes(&old, &report([1.0, 2.0, 6.0], [0.1, 0.3, 0.0]));
+        assert_eq!(
+            worse.iter().map(|c| (c.what, c.method.as_str())).collect::<Vec<_>>(),
+            [("slower", "c"), ("less accurate", "b")]
+        );
+        assert!(worse[0].to_string().starts_with("slower: d c: one call takes 6.000 ns, was 4.000 ns; 1.50 times"));
+    }
+
+    #[test]
+    fn a_lost_row_and_lost_numbers_are_told_and_other_points_are_not_compared() {
+        let old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.3]);
+        let mut new = old.clone();
+        new.rows[0].not_finite = Some(2);
+        new.rows[1].error_rms = None;
+        new.rows.pop();
+        let found: Vec<_> = changes(&old, &new).iter().map(|c| c.what).collect();
+        assert_eq!(found, ["more results that are no numbers", "less accurate", "gone"]);
+        new.effort = Effort::Full;
+        assert_eq!(changes(&old, &new).iter().map(|c| c.what).collect::<Vec<_>>(), ["gone"]);
+    }
+}

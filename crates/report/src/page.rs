@@ -1,0 +1,364 @@
+//! A report as one HTML page, light and dark, that needs nothing beside itself.
+
+use std::fmt::Write;
+
+use crate::comparison::{Budget, Comparison, Cost, Unit, comparisons};
+use crate::plot::{dark_rules, escaped, scatter};
+use crate::{Effort, PARTS, Report, Row, terms, words};
+
+const STYLE: &str = include_str!("page/style.css");
+const SORT: &str = include_str!("page/sort.js");
+
+/// The page.
+pub fn html(report: &Report) -> String {
+    let comparisons = comparisons(&report.rows);
+    let mut page = String::new();
+    head(report, &comparisons, &mut page);
+    choices(&comparisons, &mut page);
+    for term in terms_of(report) {
+        chapter(term, report, &comparisons, &mut page);
+    }
+    rounding(report, &mut page);
+    foot(report, &mut page);
+    page
+}
+
+/// Terms with more to show than what the arithmetic adds, in the order measured.
+fn terms_of(report: &Report) -> Vec<&str> {
+    let mut terms: Vec<&str> = Vec::new();
+    for row in report.rows.iter().filter(|row| !row.is_rounding()) {
+        if !terms.contains(&row.term.as_str()) {
+            terms.push(&row.term);
+        }
+    }
+    terms
+}
+
+fn head(report: &Report, comparisons: &[Comparison<'_>], page: &mut String) {
+    let effort = match report.effort {
+        Effort::Quick => "quick: few points and runs",
+        Effort::Full => "full",
+    };
+    let dark = dark_rules();
+    let _ = write!(
+        page,
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>Halfvector: speed against error</title>\n<style>\n{STYLE}@media (prefers-color-scheme: dark) {{ {dark} }}\n\
+         </style>\n</head>\n<body>\n<header>\n<h1>Speed against error</h1>\n\
+         <p class=\"lead\">Every approximation of Halfvector, how wrong it is and what it costs: {} figures of {} methods, \
+         measured in one run, each error against a truth in double precision.</p>\n<ul class=\"facts\"><li>{}</li>\
+         <li>{}</li><li>{effort}</li></ul>\n",
+        report.rows.len(),
+        methods(report),
+        escaped(&report.machine),
+        escaped(&report.date),
+    );
+    let missing: Vec<&str> =
+        PARTS.iter().map(|part| part.name).filter(|name| !report.parts.iter().any(|part| part == name)).collect();
+    if !missing.is_empty() {
+        let _ = writeln!(page, "<p class=\"muted\">Not measured in this run: {}.</p>", missing.join(", "));
+    }
+    page.push_str("<nav>");
+    if !comparisons.is_empty() {
+        page.push_str("<a href=\"#choose\">What to choose</a>");
+    }
+    for term in terms_of(report) {
+        let _ = write!(page, "<a href=\"#{0}\">{0}</a>", escaped(term));
+    }
+    page.push_str(
+        "<a href=\"#rounding\">rounding</a><a href=\"#how\">how it is measured</a></nav>\n</header>\n<main>\n",
+    );
+}
+
+/// How many different methods there are.
+fn methods(report: &Report) -> usize {
+    let names: std::collections::HashSet<_> = report.rows.iter().map(|row| (&row.term, &row.method)).collect();
+    names.len()
+}
+
+fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
+    if comparisons.is_empty() {
+        return;
+    }
+    let limit =
+        |budget| format!("{} % ({}° for angles)", 100.0 * Unit::Relative.limit(budget), Unit::Degrees.limit(budget));
+    let _ = write!(
+        page,
+        "<h2 id=\"choose\">What to choose</h2>\n<p>Made from the figures below by one rule. <b>Mobile</b> takes the cheapest \
+         method whose rms error is at most {}, <b>desktop</b> the cheapest within {}, <b>film</b> the most accurate, and of \
+         those that are as accurate the cheapest. Where no method keeps a limit, the most accurate one stands with its \
+         error in brackets.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
+         <th>mobile</th><th>desktop</th><th>film</th></tr></thead><tbody>\n",
+        limit(Budget::Mobile),
+        limit(Budget::Desktop)
+    );
+    for comparison in comparisons {
+        let truth = words::against(comparison.domains[0]).split_once("against ").map_or("", |(_, truth)| truth);
+        let inputs = words::inputs(&comparison.domains) + if truth.is_empty() { "" } else { "; against " } + truth;
+        let _ = write!(
+            page,
+            "<tr><td class=\"term\"><a href=\"#{0}\"><code>{0}</code></a><br><span class=\"small muted\">{1}</span></td>",
+            escaped(comparison.term),
+            escaped(&inputs)
+        );
+        for budget in Budget::ALL {
+            let entry = comparison.choice(budget);
+            let figures =
+                format!("{}, {}", words::error(entry.rms, comparison.unit), words::cost(entry.cost, comparison.cost));
+            let brackets = if comparison.keeps(entry, budget) { figures } else { format!("({figures})") };
+            let _ = write!(
+                page,
+                "<td><b>{}</b><br><span class=\"muted\">{}</span></td>",
+                escaped(&entry.row.method),
+                escaped(&brackets)
+            );
+        }
+        page.push_str("</tr>\n");
+    }
+    page.push_str("</tbody></table></div></section>\n");
+}
+
+fn chapter(term: &str, report: &Report, comparisons: &[Comparison<'_>], page: &mut String) {
+    let help = terms::help(term);
+    let _ = writeln!(page, "<h2 id=\"{0}\">{1} <code>{0}</code></h2>", escaped(term), escaped(&capital(help)));
+    for comparison in comparisons.iter().filter(|comparison| comparison.term == term) {
+        figure(comparison, page);
+    }
+    let drawn = |row: &Row| {
+        comparisons.iter().any(|comparison| {
+            comparison.term == row.term
+                && comparison.domains.contains(&row.domain.as_str())
+                && comparison.entries.iter().any(|entry| entry.row.method == row.method)
+        })
+    };
+    let others: Vec<&Row> =
+        report.rows.iter().filter(|row| row.term == term && !row.is_rounding() && !drawn(row)).collect();
+    if !others.is_empty() {
+        page.push_str("<section class=\"card\">");
+        if let Some(title) = alone(&others) {
+            let _ = write!(page, "<h3>{}</h3>", code(&title));
+        }
+        plain_table(&others, page);
+        page.push_str("</section>\n");
+    }
+}
+
+/// What rows without another to weigh them against show.
+fn alone(rows: &[&Row]) -> Option<String> {
+    let rms = |row: &&Row| row.error_rms.unwrap_or(f64::INFINITY);
+    let known: Vec<&Row> = rows.iter().copied().filter(|row| row.error_rms.is_some()).collect();
+    let least = known.iter().copied().min_by(|a, b| rms(a).total_cmp(&rms(b)))?;
+    let most = known.iter().copied().max_by(|a, b| rms(a).total_cmp(&rms(b)))?;
+    let text = |row: &Row| words::error(rms(&row), Unit::of(&row.domain));
+    let name =
+        if least.method == most.method { format!("`{}` errs", least.method) } else { "The error goes".to_owned() };
+    Some(if known.len() == 1 {
+        format!("`{}` errs {}", least.method, text(least))
+    } else {
+        format!("{name} from {} to {} rms over what is listed here", text(least), text(most))
+    })
+}
+
+/// Text with names in backticks, as HTML.
+fn code(text: &str) -> String {
+    let parts: Vec<String> = escaped(text).split('`').map(str::to_owned).collect();
+    parts
+        .iter()
+        .enumerate()
+        .map(|(i, part)| if i % 2 == 1 { format!("<code>{part}</code>") } else { part.clone() })
+        .collect()
+}
+
+/// With a capital, but for a symbol such as n.v.
+fn capital(text: &str) -> String {
+    if text.get(1..).is_some_and(|rest| rest.starts_with('.')) {
+        return text.to_owned();
+    }
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+}
+
+fn figure(comparison: &Comparison<'_>, page: &mut String) {
+    let spread = comparison
+        .entries
+        .iter()
+        .filter_map(|entry| entry.row.cost_spread)
+        .fold(None, |most: Option<f64>, x| Some(most.map_or(x, |most| most.max(x))));
+    let sure = match spread {
+        Some(spread) if comparison.cost != Cost::Bytes => {
+            format!(" Half of the runs lie within ±{} % of it, or less.", words::number(100.0 * spread))
+        }
+        _ => String::new(),
+    };
+    let whiskers = if comparison.domains.len() > 1 {
+        " Each dot stands at the method's worst inputs; its line goes down to the best ones."
+    } else {
+        ""
+    };
+    let against = capital(words::against(comparison.domains[0]));
+    let full_stop = if against.is_empty() { "" } else { "." };
+    let _ = write!(
+        page,
+        "<figure>\n<h3>{}</h3>\n{}\n<figcaption><p class=\"legend\"><span><i class=\"dot\"></i>unbeaten: nothing else is both cheaper \
+         and at least as accurate</span><span><i class=\"dot beaten\"></i>beaten</span><span>★ the default</span></p>\
+         <p><b>How:</b> {}. {}{full_stop} {}{sure} Down and to the left is better.{whiskers}</p></figcaption>\n",
+        code(&words::finding(comparison)),
+        scatter(comparison),
+        escaped(&capital(&words::inputs(&comparison.domains))),
+        escaped(&against),
+        comparison.cost.measured(),
+    );
+    table(comparison, page);
+    page.push_str("</figure>\n");
+}
+
+/// A cell with a number: shown short, sorted by its whole value.
+fn cell(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
+    match value {
+        Some(x) => format!("<td class=\"n\" data-value=\"{x:e}\">{}</td>", escaped(&text(x))),
+        None => "<td class=\"n\" data-value=\"\"></td>".to_owned(),
+    }
+}
+
+fn table(comparison: &Comparison<'_>, page: &mut String) {
+    let has = |some: fn(&Row) -> bool| comparison.entries.iter().any(|entry| some(entry.row));
+    let instructions = has(|row| row.instructions.is_some());
+    let bytes = comparison.cost != Cost::Bytes && has(|row| row.bytes.is_some());
+    let cheapest = comparison.entries.iter().map(|entry| entry.cost).fold(f64::INFINITY, f64::min);
+    page.push_str(
+        "<div class=\"scroll\"><table><thead><tr><th>method</th><th class=\"n\" aria-sort=\"ascending\">rms error</th>\
+         <th class=\"n\">largest error</th>",
+    );
+    let _ = write!(page, "<th class=\"n\">{}</th><th class=\"n\">× cheapest</th>", short(comparison.cost));
+    for (there, name) in [(instructions, "instructions"), (bytes, "memory")] {
+        if there {
+            let _ = write!(page, "<th class=\"n\">{name}</th>");
+        }
+    }
+    page.push_str("<th>largest at</th></tr></thead><tbody>\n");
+    for entry in &comparison.entries {
+        let row = entry.row;
+        let error = |x| words::error(x, comparison.unit);
+        let front = if entry.front { " class=\"front\"" } else { "" };
+        let _ = write!(page, "<tr{front}><td>{}{}</td>", escaped(&row.method), tags(row));
+        page.push_str(&cell(Some(entry.rms), error));
+        page.push_str(&cell(row.error_max, error));
+        page.push_str(&cell(Some(entry.cost), |x| words::cost(x, comparison.cost)));
+        page.push_str(&cell(Some(entry.cost / cheapest.max(f64::MIN_POSITIVE)), |x| format!("{x:.1}")));
+        if instructions {
+            page.push_str(&cell(row.instructions.map(|x| x as f64), |x| format!("{x:.0}")));
+        }
+        if bytes {
+            page.push_str(&cell(row.bytes.map(|x| x as f64), |x| words::cost(x, Cost::Bytes)));
+        }
+        let _ = writeln!(
+            page,
+            "<td class=\"small\">{}</td></tr>",
+            escaped(&words::shortened(row.at.as_deref().unwrap_or("")))
+        );
+    }
+    page.push_str("</tbody></table></div>\n");
+}
+
+fn short(cost: Cost) -> &'static str {
+    match cost {
+        Cost::Batch => "batch element",
+        Cost::Call => "one call",
+        Cost::Bytes => "memory",
+    }
+}
+
+fn tags(row: &Row) -> String {
+    let tag = |there: bool, text: &str| if there { text.to_owned() } else { String::new() };
+    tag(terms::is_default(&row.term, &row.method), "<span class=\"tag\">default</span>")
+        + &tag(terms::is_report(&row.term, &row.method), "<span class=\"tag plain\">the report's</span>")
+}
+
+/// Rows by themselves: the inputs stand in a column of their own.
+fn plain_table(rows: &[&Row], page: &mut String) {
+    let has = |some: fn(&Row) -> bool| rows.iter().any(|row| some(row));
+    let columns = [
+        ("NaN or inf", has(|row| row.not_finite.is_some())),
+        ("one call", has(|row| row.cost_ns.is_some())),
+        ("memory", has(|row| row.bytes.is_some())),
+        ("instructions", has(|row| row.instructions.is_some())),
+    ];
+    page.push_str(
+        "<div class=\"scroll\"><table><thead><tr><th>method</th><th class=\"n\">rms error</th>\
+         <th class=\"n\">largest error</th>",
+    );
+    for (name, _) in columns.iter().filter(|(_, there)| *there) {
+        let _ = write!(page, "<th class=\"n\">{name}</th>");
+    }
+    page.push_str("<th>inputs, and what the error is against</th></tr></thead><tbody>\n");
+    for row in rows {
+        let error = |x| words::error(x, Unit::of(&row.domain));
+        let _ = write!(page, "<tr><td>{}{}</td>", escaped(&row.method), tags(row));
+        page.push_str(&cell(row.error_rms, error));
+        page.push_str(&cell(row.error_max, error));
+        let cells = [
+            cell(row.not_finite.map(|x| x as f64), |x| format!("{x:.0}")),
+            cell(row.cost_ns, |x| words::cost(x, Cost::Call)),
+            cell(row.bytes.map(|x| x as f64), |x| words::cost(x, Cost::Bytes)),
+            cell(row.instructions.map(|x| x as f64), |x| format!("{x:.0}")),
+        ];
+        for (cell, _) in cells.iter().zip(&columns).filter(|(_, (_, there))| *there) {
+            page.push_str(cell);
+        }
+        let failure = row
+            .first_failure
+            .as_deref()
+            .map_or(String::new(), |at| format!("; fails first at {}", words::shortened(at)));
+        let _ = writeln!(page, "<td class=\"small\">{}{}</td></tr>", escaped(&row.domain), escaped(&failure));
+    }
+    page.push_str("</tbody></table></div>\n");
+}
+
+/// What f32 adds to each form.
+fn rounding(report: &Report, page: &mut String) {
+    let mut rows: Vec<&Row> = report.rows.iter().filter(|row| row.is_rounding()).collect();
+    let rms = |row: &Row| row.error_rms.unwrap_or(f64::INFINITY);
+    rows.sort_by(|a, b| rms(b).total_cmp(&rms(a)));
+    let Some(worst) = rows.first() else { return };
+    let _ = write!(
+        page,
+        "<h2 id=\"rounding\">Rounding</h2>\n<p class=\"muted\">What 32-bit arithmetic adds to each form, against the very same \
+         form in 64 bits. This is no property of the model.</p>\n<section class=\"card\"><h3>No form loses more than {} rms \
+         to 32-bit arithmetic; {} of <code>{}</code> loses most</h3>",
+        words::error(rms(worst), Unit::Relative),
+        escaped(&worst.method),
+        escaped(&worst.term)
+    );
+    page.push_str(
+        "<div class=\"scroll\"><table><thead><tr><th>term</th><th>method</th>\
+         <th class=\"n\" aria-sort=\"descending\">rms error</th><th class=\"n\">largest error</th><th class=\"n\">one call</th>\
+         <th>inputs</th></tr></thead><tbody>\n",
+    );
+    for row in rows {
+        let _ = write!(page, "<tr><td>{}</td><td>{}</td>", escaped(&row.term), escaped(&row.method));
+        let error = |x| words::error(x, Unit::Relative);
+        page.push_str(&cell(row.error_rms, error));
+        page.push_str(&cell(row.error_max, error));
+        page.push_str(&cell(row.cost_ns, |x| words::cost(x, Cost::Call)));
+        let _ = writeln!(page, "<td class=\"small\">{}</td></tr>", escaped(words::inputs(&[&row.domain]).as_str()));
+    }
+    page.push_str("</tbody></table></div></section>\n");
+}
+
+fn foot(report: &Report, page: &mut String) {
+    let _ = write!(
+        page,
+        "<h2 id=\"how\">How it is measured</h2>\n<section class=\"card\">\n<p><b>Errors</b> are differences from a truth in 64-bit \
+         arithmetic: exact equations, converged quadrature or a sum over every texel, as each figure says. The points are the \
+         same in every run, so the errors are, too.</p>\n<p><b>Times</b> are of {}. The methods of a figure run in turns, so \
+         that a slow moment meets all of them alike; the first turn warms up and is not counted; what stands is the median. \
+         Read them as ratios within a figure: another machine has other nanoseconds.</p>\n<p><b>Instructions</b> are those that the \
+         method adds to the fragment stage in SPIR-V, before a driver optimises it.</p>\n<p><b>The front</b>: a method \
+         is marked when no other on the same inputs is cheaper and at least as accurate. Times within their spread count as \
+         alike.</p>\n<p>The same figures stand in <code>report.json</code> and in one CSV file for each part.</p>\n</section>\n\
+         </main>\n<footer>Made by <code>halfvector report</code> on {}.</footer>\n<script>\n{SORT}</script>\n</body>\n</html>\n",
+        escaped(&report.machine),
+        escaped(&report.date),
+    );
+}

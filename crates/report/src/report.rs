@@ -1,0 +1,81 @@
+//! A whole run: its rows, and what has to be known to read them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Effort, Row, write};
+
+/// What `report.json` holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Version of this layout: 1.
+    pub schema: u32,
+    /// Processor, cores, operating system.
+    pub machine: String,
+    /// The day of the run, UTC: 2026-05-31.
+    pub date: String,
+    /// How long was measured; errors of different efforts are of different points.
+    pub effort: Effort,
+    /// Names of the parts that are measured so far.
+    pub parts: Vec<String>,
+    /// What was measured, part by part.
+    pub rows: Vec<Row>,
+}
+
+/// The version of the layout.
+const SCHEMA: u32 = 1;
+
+/// Why a text is no report.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// Not JSON, or not of this layout.
+    #[error("it is not a report: {0}")]
+    Layout(#[from] serde_json::Error),
+    /// Of a later layout.
+    #[error("its layout is version {0}; this program reads version {SCHEMA}")]
+    Version(u32),
+}
+
+impl Report {
+    /// A report of this machine and day, without rows.
+    pub fn begun(effort: Effort) -> Report {
+        let (machine, date) = (write::machine(), write::today());
+        Report { schema: SCHEMA, machine, date, effort, parts: Vec::new(), rows: Vec::new() }
+    }
+
+    /// Reads `report.json`.
+    ///
+    /// # Errors
+    ///
+    /// When the text is not JSON of this layout.
+    pub fn from_json(text: &str) -> Result<Report, ReportError> {
+        let report: Report = serde_json::from_str(text)?;
+        if report.schema == SCHEMA { Ok(report) } else { Err(ReportError::Version(report.schema)) }
+    }
+
+    /// The text of `report.json`, one row a line, so that two of them can be compared by eye. Numbers that JSON cannot hold
+    /// (an infinite error) are null.
+    pub fn to_json(&self) -> String {
+        let rows: Vec<String> = self.rows.iter().map(|row| serde_json::json!(row).to_string()).collect();
+        let Report { schema, machine, date, effort, parts, .. } = self;
+        let head = serde_json::json!({
+            "schema": schema, "machine": machine, "date": date, "effort": effort, "parts": parts, "rows": []
+        });
+        head.to_string().replacen("\"rows\":[]}", &format!("\"rows\":[\n{}\n]}}\n", rows.join(",\n")), 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_report_survives_its_file() {
+        let mut report = Report::begun(Effort::Quick);
+        report.rows.push(Row { error_rms: Some(0.5), at: Some("n.v = 0".into()), ..Row::new("d", "ggx", "all") });
+        assert_eq!(Report::from_json(&report.to_json()).expect("the same layout"), report);
+        report.schema = 2;
+        let error = Report::from_json(&report.to_json()).expect_err("a later layout");
+        assert_eq!(error.to_string(), "its layout is version 2; this program reads version 1");
+        Report::from_json("{}").expect_err("no report");
+    }
+}
