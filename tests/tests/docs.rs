@@ -18,5 +18,5 @@ fn the_page_of_nodes_is_what_the_library_says() {
 
 #[test]
 fn there_are_enough_nodes_to_live_in() {
-    assert!(Library::standard().iter().count() >= 60);
+    assert!(Library::standard().iter().count() >= 190);
 }

@@ -8,6 +8,7 @@ mod golden;
 mod images;
 mod interp;
 mod methods;
+mod nodes;
 mod normal_tangent;
 mod relief;
 mod support;

@@ -12,14 +12,19 @@ use crate::value::{ColorSpace, SocketType, Value};
 /// All nodes, by category, with sockets, defaults, ranges and help.
 pub fn nodes_markdown(library: &Library) -> String {
     let mut out = String::from(
-        "# Nodes\n\nGenerated from the doc comments under `shaders/nodes/`. A node is a WGSL function; `T` stands for the widest type that comes into the node.\n",
+        "# Nodes\n\nGenerated from the doc comments under `shaders/nodes/`. A node is a WGSL function; `T` stands for the widest type that comes into the node.\nPatterns are averaged over the pixel, so that they do not alias.\n",
     );
     let mut category = "";
     for def in library.iter() {
         let own = def.id.split('/').next().unwrap_or("");
         if own != category {
             category = own;
-            let _ = write!(out, "\n## {category}\n");
+            // The surface is what every example ends in; its own one has all its sockets as parameters.
+            let example = if category == "surface" { category.into() } else { format!("nodes/{category}") };
+            let _ = write!(
+                out,
+                "\n## {category}\n\nAll of them at work: [{example}.material.json](../examples/{example}.material.json).\n"
+            );
         }
         node_markdown(def, &mut out);
     }

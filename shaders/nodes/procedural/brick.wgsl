@@ -10,7 +10,8 @@ struct BrickOutputs {
 
 /// Brick
 ///
-/// Rows of bricks, every second one shifted. Not filtered: fine walls alias.
+/// Rows of bricks, every second one shifted. The mask is averaged over the pixel; the random value fades to its mean of 0.5 where bricks are
+/// smaller than pixels.
 /// @node procedural/brick   @also wall, masonry, tiles, planks
 /// - uv: coordinates [context uv0]
 /// - count: bricks per unit across, rows down [4,8; 1..64]
@@ -18,15 +19,30 @@ struct BrickOutputs {
 /// - mortar: width of the joints, in heights of a row [0.1; 0..0.5]
 /// - softness: width of the edge between brick and mortar, in heights of a row [0; 0..0.5]
 /// - seed: another one, other values [0; 0..100]
+/// @vertex node_procedural_brick_vertex
 fn node_procedural_brick(uv: vec2f, count: vec2f, shift: f32, mortar: f32, softness: f32, seed: i32) -> BrickOutputs {
-    let n = max(count, vec2f(1e-3));
-    let row = floor(uv.y * n.y);
+    let p = uv * max(count, vec2f(1e-3));
+    return bricks(p, fwidth(p), max(count, vec2f(1e-3)), shift, mortar, softness, seed);
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_brick_vertex(uv: vec2f, count: vec2f, shift: f32, mortar: f32, softness: f32, seed: i32) -> BrickOutputs {
+    return bricks(uv * max(count, vec2f(1e-3)), vec2f(0.0), max(count, vec2f(1e-3)), shift, mortar, softness, seed);
+}
+
+/// Bricks over a window. A soft edge is a hard one in its middle, averaged over its width: its window and the pixel's are one of the squares' sum.
+fn bricks(p: vec2f, window: vec2f, count: vec2f, shift: f32, mortar: f32, softness: f32, seed: i32) -> BrickOutputs {
+    let row = floor(p.y);
     let odd = row - 2.0 * floor(0.5 * row);
-    let q = vec2f(uv.x * n.x + odd * shift, uv.y * n.y);
-    let inner = fract(q);
-    // Distance to the brick's nearest side, in heights of a row.
-    let side = min(inner, 1.0 - inner) * vec2f(n.y / n.x, 1.0);
-    let edge = min(side.x, side.y) - 0.5 * mortar;
+    let q = vec2f(p.x + odd * shift, p.y);
+    // In bricks and rows.
+    let joint = max(mortar, 0.0) * vec2f(count.x / count.y, 1.0);
+    let soft = max(softness, 0.0) * vec2f(count.x / count.y, 1.0);
+    let w = sqrt(window * window + soft * soft);
+    let edge = joint + soft;
+    let across = pulse_wave(q.x - 0.5 * edge.x, w.x, 1.0 - edge.x);
+    let down = pulse_wave(q.y - 0.5 * edge.y, w.y, 1.0 - edge.y);
     let id = unit_floats(lattice_hash(vec3i(vec2i(floor(q)), 0), seed)).x;
-    return BrickOutputs(linear_step(0.0, max(softness, 0.0), edge), id, inner);
+    let left = left_of_cells(0.5 * dot(window, window));
+    return BrickOutputs(across * down, mix(0.5, id, left), fract(q));
 }

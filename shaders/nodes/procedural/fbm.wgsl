@@ -7,6 +7,7 @@ const MAX_OCTAVES: i32 = 8;
 ///
 /// Fractional Brownian motion: octaves of gradient noise, each finer by the lacunarity and weaker by the gain, over the
 /// sum of their weights. Musgrave, Kolb and Mace 1989, "The synthesis and rendering of eroded fractal terrains".
+/// Octaves that are finer than pixels fade to their mean.
 /// @node procedural/fbm_2d   @also fractal, perlin, clouds, turbulence, fractional brownian motion
 /// - uv: coordinates [context uv0]
 /// - scale: lattice points of the first octave per unit [4; 0..64]
@@ -15,13 +16,29 @@ const MAX_OCTAVES: i32 = 8;
 /// - gain: how much weaker each octave is; held in 0..1 [0.5; 0..1]
 /// - seed: another one, another pattern [0; 0..100]
 /// - return: -1 to 1, mean 0
+/// @vertex node_procedural_fbm_2d_vertex
 fn node_procedural_fbm_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    var p = uv * scale;
+    let p = uv * scale;
+    return fbm2(p, squared_footprint2(p), octaves, lacunarity, gain, seed);
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_fbm_2d_vertex(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
+    return fbm2(uv * scale, 0.0, octaves, lacunarity, gain, seed);
+}
+
+/// Fractal Noise over a window of `squared_width`.
+fn fbm2(start: vec2f, squared_width: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
+    let finer = clamp(lacunarity, 1.0, 4.0);
+    var p = start;
+    var window = squared_width;
     var weight = 1.0;
     var total = vec2f(0.0);
     for (var i = 0; i < clamp(octaves, 1, MAX_OCTAVES); i++) {
-        total += weight * vec2f(gradient_noise2(p, seed + i), 1.0);
-        p *= clamp(lacunarity, 1.0, 4.0);
+        let noise = gradient_noise2(p, seed + i);
+        total += weight * vec2f(noise * left_of_noise(1.0, window), 1.0);
+        p *= finer;
+        window *= finer * finer;
         weight *= clamp(gain, 0.0, 1.0);
     }
     return total.x / total.y;
@@ -31,6 +48,7 @@ fn node_procedural_fbm_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, 
 ///
 /// Fractional Brownian motion: octaves of gradient noise, each finer by the lacunarity and weaker by the gain, over the
 /// sum of their weights. Musgrave, Kolb and Mace 1989, "The synthesis and rendering of eroded fractal terrains".
+/// Octaves that are finer than pixels fade to their mean.
 /// @node procedural/fbm_3d   @also fractal, perlin, clouds, turbulence, fractional brownian motion
 /// - position: the point [context object_position]
 /// - scale: lattice points of the first octave per metre [4; 0..64]
@@ -39,59 +57,29 @@ fn node_procedural_fbm_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, 
 /// - gain: how much weaker each octave is; held in 0..1 [0.5; 0..1]
 /// - seed: another one, another pattern [0; 0..100]
 /// - return: -1 to 1, mean 0
+/// @vertex node_procedural_fbm_3d_vertex
 fn node_procedural_fbm_3d(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    var p = position * scale;
-    var weight = 1.0;
-    var total = vec2f(0.0);
-    for (var i = 0; i < clamp(octaves, 1, MAX_OCTAVES); i++) {
-        total += weight * vec2f(gradient_noise3(p, seed + i), 1.0);
-        p *= clamp(lacunarity, 1.0, 4.0);
-        weight *= clamp(gain, 0.0, 1.0);
-    }
-    return total.x / total.y;
+    let p = position * scale;
+    return fbm3(p, squared_footprint(p), octaves, lacunarity, gain, seed);
 }
 
-/// Turbulence 2D
-///
-/// Octaves of the absolute value of gradient noise: billows with sharp valleys. Perlin 1985, "An Image Synthesizer".
-/// @node procedural/turbulence_2d   @also billow, marble, smoke, veins
-/// - uv: coordinates [context uv0]
-/// - scale: lattice points of the first octave per unit [4; 0..64]
-/// - octaves: how many; held in 1..8 [5; 1..8]
-/// - lacunarity: how much finer each octave is; held in 1..4 [2; 1..4]
-/// - gain: how much weaker each octave is; held in 0..1 [0.5; 0..1]
-/// - seed: another one, another pattern [0; 0..100]
-/// - return: 0 to 1
-fn node_procedural_turbulence_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    var p = uv * scale;
-    var weight = 1.0;
-    var total = vec2f(0.0);
-    for (var i = 0; i < clamp(octaves, 1, MAX_OCTAVES); i++) {
-        total += weight * vec2f(abs(gradient_noise2(p, seed + i)), 1.0);
-        p *= clamp(lacunarity, 1.0, 4.0);
-        weight *= clamp(gain, 0.0, 1.0);
-    }
-    return total.x / total.y;
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_fbm_3d_vertex(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
+    return fbm3(position * scale, 0.0, octaves, lacunarity, gain, seed);
 }
 
-/// Turbulence 3D
-///
-/// Octaves of the absolute value of gradient noise: billows with sharp valleys. Perlin 1985, "An Image Synthesizer".
-/// @node procedural/turbulence_3d   @also billow, marble, smoke, veins
-/// - position: the point [context object_position]
-/// - scale: lattice points of the first octave per metre [4; 0..64]
-/// - octaves: how many; held in 1..8 [5; 1..8]
-/// - lacunarity: how much finer each octave is; held in 1..4 [2; 1..4]
-/// - gain: how much weaker each octave is; held in 0..1 [0.5; 0..1]
-/// - seed: another one, another pattern [0; 0..100]
-/// - return: 0 to 1
-fn node_procedural_turbulence_3d(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    var p = position * scale;
+/// Fractal Noise over a window of `squared_width`.
+fn fbm3(start: vec3f, squared_width: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
+    let finer = clamp(lacunarity, 1.0, 4.0);
+    var p = start;
+    var window = squared_width;
     var weight = 1.0;
     var total = vec2f(0.0);
     for (var i = 0; i < clamp(octaves, 1, MAX_OCTAVES); i++) {
-        total += weight * vec2f(abs(gradient_noise3(p, seed + i)), 1.0);
-        p *= clamp(lacunarity, 1.0, 4.0);
+        let noise = gradient_noise3(p, seed + i);
+        total += weight * vec2f(noise * left_of_noise(1.0, window), 1.0);
+        p *= finer;
+        window *= finer * finer;
         weight *= clamp(gain, 0.0, 1.0);
     }
     return total.x / total.y;

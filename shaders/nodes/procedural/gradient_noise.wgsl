@@ -56,25 +56,39 @@ fn gradient_noise3(p: vec3f, seed: i32) -> f32 {
 /// Gradient Noise 2D
 ///
 /// Perlin's noise: smooth bumps of one size, 0 at each lattice point. Perlin 2002, "Improving Noise", with eight
-/// directions and the hash of Jarzynski and Olano 2020.
+/// directions and the hash of Jarzynski and Olano 2020. Fades to 0 where bumps are smaller than pixels.
 /// @node procedural/gradient_noise_2d   @also perlin, clouds, bumps
 /// - uv: coordinates [context uv0]
 /// - scale: lattice points per unit [8; 0..64]
 /// - seed: another one, another pattern [0; 0..100]
 /// - return: -1 to 1, mean 0
+/// @vertex node_procedural_gradient_noise_2d_vertex
 fn node_procedural_gradient_noise_2d(uv: vec2f, scale: f32, seed: i32) -> f32 {
+    let p = uv * scale;
+    return gradient_noise2(p, seed) * left_of_noise(1.0, squared_footprint2(p));
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_gradient_noise_2d_vertex(uv: vec2f, scale: f32, seed: i32) -> f32 {
     return gradient_noise2(uv * scale, seed);
 }
 
 /// Gradient Noise 3D
 ///
 /// Perlin's noise: smooth bumps of one size, 0 at each lattice point. Perlin 2002, "Improving Noise", with the hash of
-/// Jarzynski and Olano 2020.
+/// Jarzynski and Olano 2020. Fades to 0 where bumps are smaller than pixels.
 /// @node procedural/gradient_noise_3d   @also perlin, clouds, bumps
 /// - position: the point [context object_position]
 /// - scale: lattice points per metre [8; 0..64]
 /// - seed: another one, another pattern [0; 0..100]
 /// - return: -1 to 1, mean 0
+/// @vertex node_procedural_gradient_noise_3d_vertex
 fn node_procedural_gradient_noise_3d(position: vec3f, scale: f32, seed: i32) -> f32 {
+    let p = position * scale;
+    return gradient_noise3(p, seed) * left_of_noise(1.0, squared_footprint(p));
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_gradient_noise_3d_vertex(position: vec3f, scale: f32, seed: i32) -> f32 {
     return gradient_noise3(position * scale, seed);
 }

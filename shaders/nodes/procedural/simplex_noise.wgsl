@@ -10,12 +10,19 @@ const SIMPLEX_SCALE3: f32 = 76.8;
 ///
 /// Smooth bumps of one size on a lattice of triangles. Each corner at distance r adds (1/2 - r^2)^4 times how far the point
 /// lies along the corner's direction. Perlin 2001, "Noise hardware"; Gustavson 2005, "Simplex noise demystified".
+/// Fades to 0 where bumps are smaller than pixels.
 /// @node procedural/simplex_noise_2d   @also perlin, clouds, bumps
 /// - uv: coordinates [context uv0]
 /// - scale: lattice points per unit [8; 0..64]
 /// - seed: another one, another pattern [0; 0..100]
 /// - return: -1 to 1, mean 0
+/// @vertex node_procedural_simplex_noise_2d_vertex
 fn node_procedural_simplex_noise_2d(uv: vec2f, scale: f32, seed: i32) -> f32 {
+    return node_procedural_simplex_noise_2d_vertex(uv, scale, seed) * left_of_noise(2.83, squared_footprint2(uv * scale));
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_simplex_noise_2d_vertex(uv: vec2f, scale: f32, seed: i32) -> f32 {
     let p = uv * scale;
     // Skewing by (sqrt(3) - 1) / 2 makes squares of the pairs of triangles; (3 - sqrt(3)) / 6 undoes it.
     let corner = floor(p + (p.x + p.y) * 0.36602540);
@@ -38,12 +45,19 @@ fn node_procedural_simplex_noise_2d(uv: vec2f, scale: f32, seed: i32) -> f32 {
 ///
 /// Smooth bumps of one size on a lattice of tetrahedra. Each corner at distance r adds (1/2 - r^2)^4 times how far the
 /// point lies along the corner's direction. Perlin 2001, "Noise hardware"; Gustavson 2005, "Simplex noise demystified".
+/// Fades to 0 where bumps are smaller than pixels.
 /// @node procedural/simplex_noise_3d   @also perlin, clouds, bumps
 /// - position: the point [context object_position]
 /// - scale: lattice points per metre [8; 0..64]
 /// - seed: another one, another pattern [0; 0..100]
 /// - return: -1 to 1, mean 0
+/// @vertex node_procedural_simplex_noise_3d_vertex
 fn node_procedural_simplex_noise_3d(position: vec3f, scale: f32, seed: i32) -> f32 {
+    return node_procedural_simplex_noise_3d_vertex(position, scale, seed) * left_of_noise(2.83, squared_footprint(position * scale));
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_simplex_noise_3d_vertex(position: vec3f, scale: f32, seed: i32) -> f32 {
     let p = position * scale;
     let corner = floor(p + (p.x + p.y + p.z) / 3.0);
     let d0 = p - corner + (corner.x + corner.y + corner.z) / 6.0;

@@ -8,7 +8,8 @@ struct WhiteNoiseOutputs {
 
 /// White Noise 2D
 ///
-/// A random value and colour for each unit square: the same everywhere in it, unlike in its neighbours. Not filtered.
+/// A random value and colour for each unit square: the same everywhere in it, unlike in its neighbours. For
+/// numbers of things (tiles, cells): as a pattern it is not filtered; Cell Noise is.
 /// Hash pcg3d of Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".
 /// @node procedural/white_noise_2d   @also random, cell noise, hash
 /// - uv: coordinates; scale them up for more squares [context uv0]
@@ -20,7 +21,8 @@ fn node_procedural_white_noise_2d(uv: vec2f, seed: i32) -> WhiteNoiseOutputs {
 
 /// White Noise 3D
 ///
-/// A random value and colour for each unit cube: the same everywhere in it, unlike in its neighbours. Not filtered.
+/// A random value and colour for each unit cube: the same everywhere in it, unlike in its neighbours. For
+/// numbers of things (tiles, cells): as a pattern it is not filtered; Cell Noise is.
 /// Hash pcg3d of Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".
 /// @node procedural/white_noise_3d   @also random, cell noise, hash
 /// - position: the point; scale it up for more cubes [context object_position]

@@ -15,13 +15,26 @@ struct WorleyOutputs {
 /// Worley Noise 2D
 ///
 /// Cells around random points: distance to the nearest, to the second nearest, and a value for each cell. Worley 1996,
-/// "A Cellular Texture Basis Function". Distances are cut off at 1. The borders of `id` are not filtered.
+/// "A Cellular Texture Basis Function". Distances are cut off at 1. All fade to their means where cells are
+/// smaller than pixels; the borders of `id` are hard.
 /// @node procedural/worley_2d   @also voronoi, cellular, cells, cracks, stones
 /// - uv: coordinates [context uv0]
 /// - scale: cells per unit [8; 0..64]
 /// - jitter: 0 a square lattice, 1 random; held in 0..1 [1; 0..1]
 /// - seed: another one, another pattern [0; 0..100]
+/// @vertex node_procedural_worley_2d_vertex
 fn node_procedural_worley_2d(uv: vec2f, scale: f32, jitter: f32, seed: i32) -> WorleyOutputs {
+    let cells = node_procedural_worley_2d_vertex(uv, scale, jitter, seed);
+    let window = squared_footprint2(uv * scale);
+    let j = clamp(jitter, 0.0, 1.0);
+    // Means over the pattern, by jitter, measured.
+    let f1 = mix(0.382 + j * (0.0079 + 0.039 * j), cells.f1, left_of_noise(1.35, window));
+    let f2 = mix(0.7009 + j * (0.0069 - 0.0114 * j), cells.f2, left_of_noise(1.0, window));
+    return WorleyOutputs(f1, f2, mix(0.5, cells.id, left_of_cells(window)));
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_worley_2d_vertex(uv: vec2f, scale: f32, jitter: f32, seed: i32) -> WorleyOutputs {
     let p = uv * scale;
     let cell = vec2i(floor(p));
     let f = fract(p);
@@ -42,14 +55,27 @@ fn node_procedural_worley_2d(uv: vec2f, scale: f32, jitter: f32, seed: i32) -> W
 /// Worley Noise 3D
 ///
 /// Cells around random points: distance to the nearest, to the second nearest, and a value for each cell. Worley 1996,
-/// "A Cellular Texture Basis Function". Distances are cut off at 1. The borders of `id` are not filtered. 27 cells are
+/// "A Cellular Texture Basis Function". Distances are cut off at 1. All fade to their means where cells are
+/// smaller than pixels; the borders of `id` are hard. 27 cells are
 /// looked into: three times the cost of the plane's.
 /// @node procedural/worley_3d   @also voronoi, cellular, cells, cracks, stones
 /// - position: the point [context object_position]
 /// - scale: cells per metre [8; 0..64]
 /// - jitter: 0 a cubic lattice, 1 random; held in 0..1 [1; 0..1]
 /// - seed: another one, another pattern [0; 0..100]
+/// @vertex node_procedural_worley_3d_vertex
 fn node_procedural_worley_3d(position: vec3f, scale: f32, jitter: f32, seed: i32) -> WorleyOutputs {
+    let cells = node_procedural_worley_3d_vertex(position, scale, jitter, seed);
+    let window = squared_footprint(position * scale);
+    let j = clamp(jitter, 0.0, 1.0);
+    // Means over the pattern, by jitter, measured.
+    let f1 = mix(0.48 + j * (0.0085 + 0.0318 * j), cells.f1, left_of_noise(1.35, window));
+    let f2 = mix(0.703 + j * (0.021 - 0.0076 * j), cells.f2, left_of_noise(1.0, window));
+    return WorleyOutputs(f1, f2, mix(0.5, cells.id, left_of_cells(window)));
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_worley_3d_vertex(position: vec3f, scale: f32, jitter: f32, seed: i32) -> WorleyOutputs {
     let p = position * scale;
     let cell = vec3i(floor(p));
     let f = fract(p);

@@ -1,0 +1,79 @@
+/// The outputs of the nodes procedural/rounded_box and procedural/polygon.
+struct OutlineOutputs {
+    /// 1 inside, 0 outside
+    mask: f32,
+    /// distance to the outline, negative inside
+    signed_distance: f32,
+}
+
+/// The part of a window inside of an outline of about `half_size` each way from the origin: its edge near by, its area far away.
+fn outline_share(signed_distance: f32, softness: f32, p: vec2f, half_size: vec2f, width: f32) -> f32 {
+    let extent = max(half_size, vec2f(0.0));
+    let near = inside_share(signed_distance, softness, width);
+    let far = line_share(p.x, extent.x, width) * line_share(p.y, extent.y, width);
+    return mix(near, far, smoothstep(0.25, 0.75, width / max(min(extent.x, extent.y), 1e-6)));
+}
+
+/// Rounded Box
+///
+/// A box with round corners: labels, buttons, plates. The mask's edge is as wide as the pixel; a box smaller than the pixel covers its part of it.
+/// @node procedural/rounded_box   @also rectangle, square, label, sdf
+/// - uv: coordinates [context uv0]
+/// - center: of the box [0.5,0.5; 0..1]
+/// - size: width and height [0.6,0.4; 0..1]
+/// - radius: of the corners; at most half of the smaller side [0.05; 0..0.5]
+/// - softness: width of the edge [0; 0..0.5]
+/// @vertex node_procedural_rounded_box_vertex
+fn node_procedural_rounded_box(uv: vec2f, center: vec2f, size: vec2f, radius: f32, softness: f32) -> OutlineOutputs {
+    let d = rounded_box_distance(uv - center, size, radius);
+    return OutlineOutputs(outline_share(d, softness, uv - center, 0.5 * size, sqrt(squared_footprint2(uv))), d);
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_rounded_box_vertex(uv: vec2f, center: vec2f, size: vec2f, radius: f32, softness: f32) -> OutlineOutputs {
+    let d = rounded_box_distance(uv - center, size, radius);
+    return OutlineOutputs(inside_share(d, softness, 0.0), d);
+}
+
+/// Signed distance to a box with round corners about the origin.
+fn rounded_box_distance(p: vec2f, size: vec2f, radius: f32) -> f32 {
+    let half_size = 0.5 * max(size, vec2f(0.0));
+    let r = clamp(radius, 0.0, min(half_size.x, half_size.y));
+    let q = abs(p) - half_size + r;
+    return length(max(q, vec2f(0.0))) + min(max(q.x, q.y), 0.0) - r;
+}
+
+/// Polygon
+///
+/// A regular shape of three sides or more: nuts, signs, bokeh. The mask's edge is as wide as the pixel. The distance is that to the sides,
+/// drawn on beyond the corners. A shape smaller than the pixel covers its part of it.
+/// @node procedural/polygon   @also triangle, pentagon, hexagon, octagon, ngon, sdf
+/// - uv: coordinates [context uv0]
+/// - center: of the shape [0.5,0.5; 0..1]
+/// - sides: how many; held in 3..64 [6; 3..12]
+/// - radius: from the centre to a side [0.3; 0..0.5]
+/// - rotation: counter-clockwise on the image; at 0 a side lies at the bottom [0; -180..180; deg]
+/// - softness: width of the edge [0; 0..0.5]
+/// @vertex node_procedural_polygon_vertex
+fn node_procedural_polygon(uv: vec2f, center: vec2f, sides: i32, radius: f32, rotation: f32, softness: f32) -> OutlineOutputs {
+    let d = polygon_distance(uv - center, sides, rotation) - radius;
+    // Half the side of the square of the same area.
+    let n = f32(clamp(sides, 3, 64));
+    let half_side = vec2f(0.5 * radius * sqrt(n * tan(PI / n)));
+    return OutlineOutputs(outline_share(d, softness, uv - center, half_side, sqrt(squared_footprint2(uv))), d);
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_polygon_vertex(uv: vec2f, center: vec2f, sides: i32, radius: f32, rotation: f32, softness: f32) -> OutlineOutputs {
+    let d = polygon_distance(uv - center, sides, rotation) - radius;
+    return OutlineOutputs(inside_share(d, softness, 0.0), d);
+}
+
+/// How far a point lies from the middle towards the side that it is nearest to.
+fn polygon_distance(p: vec2f, sides: i32, rotation: f32) -> f32 {
+    let sector = 2.0 * PI / f32(clamp(sides, 3, 64));
+    let in_center = max(abs(p.x), abs(p.y)) <= DIVISOR_FLOOR;
+    // Angles from straight down, which is +v; the sides' middles lie at whole sectors.
+    let angle = select(atan2(p.x, select(p.y, 1.0, in_center)), 0.0, in_center) - radians(rotation);
+    return length(p) * cos(angle - sector * floor(angle / sector + 0.5));
+}
