@@ -4,6 +4,8 @@
 
 #[path = "cli/bake.rs"]
 mod bake;
+#[path = "cli/compare.rs"]
+mod compare;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -107,7 +109,7 @@ impl Run {
 #[test]
 fn every_command_has_help_with_an_example() {
     let folder = Folder::new();
-    for command in ["", "render", "export", "check", "bake", "nodes", "methods"] {
+    for command in ["", "render", "export", "check", "compare", "bake", "nodes", "methods"] {
         let arguments: Vec<_> = [command, "--help"].into_iter().filter(|a| !a.is_empty()).collect();
         let help = folder.run(&arguments).ends(0).stdout;
         assert!(help.contains("Example") && help.contains("halfvector"), "{command}: {help}");
