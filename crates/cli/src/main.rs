@@ -7,6 +7,7 @@ mod harmonics_file;
 mod input;
 mod output;
 mod picture_file;
+mod reference;
 mod set_value;
 
 use std::process::ExitCode;

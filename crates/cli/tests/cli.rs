@@ -6,6 +6,8 @@
 mod bake;
 #[path = "cli/compare.rs"]
 mod compare;
+#[path = "cli/reference.rs"]
+mod reference;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -134,7 +136,7 @@ fn wrong_usage_ends_with_2_before_any_work() {
         ("--samples", "0", "1..=4096"),
         ("--samples", "many", "invalid digit"),
         ("--backend", "cpu", "does not exist yet"),
-        ("--backend", "abacus", "auto and gpu"),
+        ("--backend", "abacus", "auto, gpu and reference"),
         ("--light", "candle:1", "candle"),
         ("--tone-map", "sepia", "pbr-neutral"),
         ("--background", "blue", "R,G,B"),
