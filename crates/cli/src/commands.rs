@@ -2,6 +2,7 @@
 
 pub(crate) mod bake;
 pub(crate) mod check;
+pub(crate) mod compare;
 pub(crate) mod export;
 pub(crate) mod first_light;
 pub(crate) mod methods;

@@ -7,13 +7,14 @@ mod harmonics_file;
 mod input;
 mod output;
 mod picture_file;
+mod reference;
 mod set_value;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{bake, check, export, first_light, methods, nodes, render, report};
+use crate::commands::{bake, check, compare, export, first_light, methods, nodes, render, report};
 
 /// Materials as node graphs: draw them, take their shaders, check them.
 ///
@@ -37,6 +38,7 @@ enum Command {
     Render(Box<render::RenderArgs>),
     Export(export::ExportArgs),
     Check(check::CheckArgs),
+    Compare(compare::CompareArgs),
     Bake(Box<bake::BakeArgs>),
     Nodes(nodes::NodesArgs),
     Methods(methods::MethodsArgs),
@@ -50,6 +52,7 @@ fn main() -> ExitCode {
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Export(args)) => export::run(args),
         Some(Command::Check(args)) => check::run(args),
+        Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Bake(args)) => bake::run(args),
         Some(Command::Nodes(args)) => nodes::run(args),
         Some(Command::Methods(args)) => methods::run(args),

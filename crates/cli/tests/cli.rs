@@ -4,6 +4,10 @@
 
 #[path = "cli/bake.rs"]
 mod bake;
+#[path = "cli/compare.rs"]
+mod compare;
+#[path = "cli/reference.rs"]
+mod reference;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -107,7 +111,7 @@ impl Run {
 #[test]
 fn every_command_has_help_with_an_example() {
     let folder = Folder::new();
-    for command in ["", "render", "export", "check", "bake", "nodes", "methods", "report"] {
+    for command in ["", "render", "export", "check", "compare", "bake", "nodes", "methods", "report"] {
         let arguments: Vec<_> = [command, "--help"].into_iter().filter(|a| !a.is_empty()).collect();
         let help = folder.run(&arguments).ends(0).stdout;
         assert!(help.contains("Example") && help.contains("halfvector"), "{command}: {help}");
@@ -132,7 +136,7 @@ fn wrong_usage_ends_with_2_before_any_work() {
         ("--samples", "0", "1..=4096"),
         ("--samples", "many", "invalid digit"),
         ("--backend", "cpu", "does not exist yet"),
-        ("--backend", "abacus", "auto and gpu"),
+        ("--backend", "abacus", "auto, gpu and reference"),
         ("--light", "candle:1", "candle"),
         ("--tone-map", "sepia", "pbr-neutral"),
         ("--background", "blue", "R,G,B"),

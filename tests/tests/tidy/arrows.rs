@@ -14,8 +14,9 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("crates/codegen", &["graph", "interp", "shaders"]),
     ("crates/scene", &["graph", "maps", "ibl"]),
     ("crates/render", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
+    ("crates/reference", &["brdf", "maps", "ibl", "graph", "scene", "codegen", "interp"]),
     ("crates/report", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),
-    ("crates/cli", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "report", "shaders"]),
+    ("crates/cli", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "reference", "report", "shaders"]),
 ];
 
 /// Packages of others that only some of ours may name.

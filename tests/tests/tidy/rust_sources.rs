@@ -15,6 +15,11 @@ const FORBIDDEN: &[(&str, &[&str], &str)] = &[
     ("crates/codegen/src", &[".layout"], "positions of nodes have no meaning"),
     ("crates/scene/src", &["wgpu::"], "only render knows the GPU"),
     ("crates/ibl/src", &["wgpu::"], "only render knows the GPU"),
+    (
+        "crates/reference/src",
+        &["wgpu", "dfg_fit", "dfg_karis", "specular_environment", "diffuse_environment", "Baked", "prefilter", "sh2"],
+        "the reference uses no fast approximation",
+    ),
     ("crates", &["#[ignore", "keep in sync", "eep these in sync"], "a test says what must agree"),
 ];
 

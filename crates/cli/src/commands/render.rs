@@ -13,6 +13,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::output::{check_place, note, progress};
 use crate::picture_file::{Display, PictureFile, PictureFormat, parse_picture_file, write};
+use crate::reference::{self, ReferenceOptions};
 use crate::set_value::{Assignment, numbers, parse_assignment, set};
 
 /// Draws a material or scene to a picture.
@@ -49,7 +50,7 @@ pub(crate) struct RenderArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = parse_size)]
     size: [u32; 2],
-    /// Samples per pixel: a square number, as they stand on a regular grid
+    /// Samples per pixel: a square number, as they stand on a regular grid; with --backend reference paths per pixel
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=4096))]
     samples: u32,
     /// Brightens a PNG by so many stops
@@ -63,22 +64,27 @@ pub(crate) struct RenderArgs {
     set: Vec<Assignment>,
     #[command(flatten)]
     methods: super::methods::MethodChoice,
-    /// Who draws: auto or gpu
+    /// Who draws: auto, gpu, or reference (Monte Carlo in f64, with shadows: slow and true)
     #[arg(long, value_name = "NAME", default_value = "auto", value_parser = parse_backend)]
     backend: Backend,
+    /// Of --backend reference: another seed is another noise, the same one the same picture
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Of --backend reference: how often light may go from surface to surface
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    bounces: u32,
 }
 
-/// Who draws. With one backend there is no choice yet: both mean the best GPU, a software one included.
-#[derive(Clone, Copy, Debug)]
+/// Who draws. Auto and gpu mean the same: the best GPU, a software one included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Backend {
     Auto,
     Gpu,
+    Reference,
 }
 
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
-    // Both mean the same as long as there is no other backend.
-    let (Backend::Auto | Backend::Gpu) = args.backend;
     check_place(&args.output.path)?;
     let mut scene = input::scene(&args.input, args.mesh.as_ref())?;
     replace_parts(&mut scene, args)?;
@@ -93,6 +99,14 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     }
     for text in &scene.notes {
         note(format_args!("note: {text}"));
+    }
+    if args.backend == Backend::Reference {
+        let RenderArgs { size, samples, seed, bounces, .. } = *args;
+        reference::draw(&scene, ReferenceOptions { size, samples, seed, bounces }, &args.output)?;
+        return Ok(0);
+    }
+    if args.seed != 0 || args.bounces != 0 {
+        note("note: --seed and --bounces do nothing here: they are for --backend reference");
     }
     let side = samples_per_side(args.samples);
     if side * side != args.samples {
@@ -248,10 +262,9 @@ fn parse_backend(text: &str) -> Result<Backend, String> {
     match text {
         "auto" => Ok(Backend::Auto),
         "gpu" => Ok(Backend::Gpu),
-        "cpu" | "reference" => Err(format!(
-            "the backend `{text}` does not exist yet; auto and gpu do, and both take a software GPU where there is no other"
-        )),
-        _ => Err("the backends are auto and gpu".to_owned()),
+        "reference" => Ok(Backend::Reference),
+        "cpu" => Err("the backend `cpu` does not exist yet; auto, gpu and reference do".to_owned()),
+        _ => Err("the backends are auto, gpu and reference".to_owned()),
     }
 }
 

@@ -1,0 +1,70 @@
+//! `--backend reference`: the picture by the Monte Carlo renderer in f64.
+
+use std::sync::Mutex;
+
+use halfvector_reference::{Reference, RenderOptions};
+use halfvector_render::Picture;
+use halfvector_scene::Scene;
+
+use crate::environment::load;
+use crate::failure::Failure;
+use crate::output::{note, progress};
+use crate::picture_file::{Display, PictureFile, write};
+
+/// How it is rendered.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ReferenceOptions {
+    /// Pixels in a row, and rows.
+    pub(crate) size: [u32; 2],
+    /// Paths for each pixel.
+    pub(crate) samples: u32,
+    /// Another seed is another noise.
+    pub(crate) seed: u64,
+    /// How often light goes from surface to surface.
+    pub(crate) bounces: u32,
+}
+
+/// Renders a scene to a file, with a progress bar, and tells of the noise that is left.
+pub(crate) fn draw(scene: &Scene, options: ReferenceOptions, output: &PictureFile) -> Result<(), Failure> {
+    let failed = |error: halfvector_reference::ReferenceError| {
+        Failure::input("the picture could not be rendered").because(error)
+    };
+    let [width, height] = options.size;
+    let ReferenceOptions { seed, bounces, .. } = options;
+    let render = RenderOptions { width, height, seed, bounces, ..RenderOptions::default() };
+    let environment = load(&scene.environment)?;
+    let mut reference = Reference::new(scene, environment.as_ref(), render).map_err(failed)?;
+    reference.notes().iter().for_each(|text| note(format_args!("note: {text}")));
+    let bar = Mutex::new((progress("rendering"), 0.0_f32));
+    let told = |done: f32| {
+        // A thread that panicked while it held the bar has ended the program anyway.
+        if let Ok(mut bar) = bar.lock()
+            && done > bar.1
+        {
+            bar.1 = done;
+            bar.0.set_position((done * 1000.0) as u64);
+        }
+    };
+    reference.add_samples(u64::from(options.samples), &told).map_err(failed)?;
+    if let Ok(bar) = bar.lock() {
+        bar.0.finish_and_clear();
+    }
+    let picture = reference.picture();
+    let (mut noise, mut light) = (0.0, 0.0);
+    for (pixel, error) in picture.pixels.iter().zip(&picture.standard_error) {
+        noise += error.iter().sum::<f64>();
+        light += pixel[..3].iter().sum::<f64>();
+    }
+    if light > 0.0 && picture.samples > 1 {
+        note(format_args!(
+            "note: {} paths for each pixel; standard error {:.2} % of the light on average; four times as many halve it",
+            picture.samples,
+            100.0 * noise / light
+        ));
+    }
+    let pixels = picture.pixels.iter().map(|pixel| pixel.map(|x| x as f32)).collect();
+    let display = Display::ToneMapped { exposure: scene.exposure.factor(), tone_map: scene.tone_map };
+    write(output, &Picture { width, height, pixels }, display)?;
+    note(format_args!("{}: {width} x {height}, drawn by the reference", output.path.display()));
+    Ok(())
+}

@@ -1,0 +1,52 @@
+//! `halfvector compare`: figures, heat map, and the mistakes.
+
+use crate::Folder;
+
+fn png(folder: &Folder, name: &str, size: [u32; 2], color: [u8; 4]) {
+    let picture = image::RgbaImage::from_pixel(size[0], size[1], image::Rgba(color));
+    picture.save(folder.path(name)).expect("written");
+}
+
+fn exr(folder: &Folder, name: &str, color: [f32; 3]) {
+    let picture = image::Rgb32FImage::from_pixel(12, 8, image::Rgb(color));
+    picture.save(folder.path(name)).expect("written");
+}
+
+#[test]
+fn figures_and_a_heat_map() {
+    let folder = Folder::new();
+    png(&folder, "black.png", [12, 8], [0, 0, 0, 255]);
+    png(&folder, "white.png", [12, 8], [255; 4]);
+    let same = folder.run(&["compare", "white.png", "white.png", "--format", "json"]).ends(0).json();
+    assert_eq!((same["flip"]["mean"].as_f64(), same["rmse"].as_f64()), (Some(0.0), Some(0.0)));
+    let run = folder.run(&["compare", "black.png", "white.png", "-o", "heat.png", "--format", "json"]).ends(0);
+    let far = run.json();
+    assert!((far["flip"]["mean"].as_f64().expect("FLIP") - 0.967_386_5).abs() < 1e-4, "{far}");
+    assert_eq!((far["rmse"].as_f64(), far["flip"]["kind"].as_str()), (Some(1.0), Some("ldr")));
+    let heat = image::open(folder.path("heat.png")).expect("the heat map").into_rgb8();
+    assert!(heat.dimensions() == (12, 8) && heat.get_pixel(3, 3)[1] > 200);
+    let text = folder.run(&["compare", "black.png", "white.png"]).ends(0).stdout;
+    assert!(text.contains("FLIP (LDR)") && text.contains("RMSE"), "{text}");
+
+    exr(&folder, "one.exr", [1.0; 3]);
+    exr(&folder, "more.exr", [1.01; 3]);
+    let bright = folder.run(&["compare", "more.exr", "one.exr", "--format", "json"]).ends(0).json();
+    assert!((bright["mean_relative"].as_f64().expect("a mean") - 0.01).abs() < 1e-6, "{bright}");
+    assert_eq!(bright["flip"]["kind"].as_str(), Some("hdr"));
+}
+
+#[test]
+fn what_cannot_be_compared() {
+    let folder = Folder::new();
+    png(&folder, "a.png", [12, 8], [9; 4]);
+    png(&folder, "b.png", [8, 12], [9; 4]);
+    exr(&folder, "c.exr", [1.0; 3]);
+    exr(&folder, "nan.exr", [f32::NAN; 3]);
+    folder.run(&["compare", "a.png", "b.png"]).ends(1).says("8 x 12 pixels").says("12 x 8");
+    folder.run(&["compare", "a.png", "c.exr"]).ends(1).says("one file holds display values, the other radiance");
+    folder.run(&["compare", "c.exr", "nan.exr"]).ends(1).says("not finite").says("column 0, row 0");
+    folder.run(&["compare", "a.png", "none.png"]).ends(1).says("none.png");
+    folder.run(&["compare", "a.png", "plain.material.json"]).ends(1).says(".png, .exr or .hdr");
+    folder.run(&["compare", "a.png", "a.png", "-o", "heat.exr"]).ends(2).says(".png");
+    folder.run(&["compare", "a.png"]).ends(2);
+}

@@ -1,0 +1,381 @@
+//! The surface at one point as what it does with light: all lobes together, evaluated, sampled, and their density.
+//!
+//! Lobes, their order and what layers leave to what lies below are those of the generated shaders; what those look up in
+//! filtered environments is integrated here.
+
+use halfvector_brdf::coupling::{coupling_compensated, coupling_light, coupling_single};
+use halfvector_brdf::frame::{Frame, Half, frame_from_normal, half_from_light};
+use halfvector_brdf::fresnel::f0_from_ior;
+use halfvector_brdf::ggx::alpha_from_perceptual_roughness;
+use halfvector_brdf::lobe_coat::{Coat, coat_base, coat_eval};
+use halfvector_brdf::lobe_multiscatter::{Multiscatter, multiscatter_eval, multiscatter_from_dfg};
+use halfvector_brdf::lobe_sampling::{
+    diffuse_pdf, diffuse_sample, sheen_pdf, sheen_sample, specular_pdf, specular_sample, transmission_pdf,
+    transmission_sample,
+};
+use halfvector_brdf::lobe_sheen::{Sheen, sheen_base, sheen_eval};
+use halfvector_brdf::lobe_transmission::{Transmission, transmission_eval};
+use halfvector_brdf::math::finite_or_zero;
+use halfvector_brdf::metallic_roughness::{diffuse_color, f0_from_metallic};
+use halfvector_brdf::vector::{add, cross, dot, mul, scale};
+
+use crate::material::Surface;
+use crate::model::{Coupling, Model};
+
+/// The smallest alpha: a mirror to 15 digits.
+const ALPHA_FLOOR: f64 = 1e-8;
+/// The least share of the samples that a lobe gets which is there at all.
+const SHARE_FLOOR: f64 = 0.05;
+
+/// A shading normal with two directions across it.
+#[derive(Clone, Copy, Debug)]
+struct Basis {
+    frame: Frame<f64>,
+    tangent: [f64; 3],
+    bitangent: [f64; 3],
+    /// The viewer in the basis, lifted to the domain of the samplers.
+    view: [f64; 3],
+}
+
+impl Basis {
+    fn new(normal: [f64; 3], view_dir: [f64; 3]) -> Basis {
+        let [x, y, z] = normal;
+        // Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+        let sign = 1.0_f64.copysign(z);
+        let a = -1.0 / (sign + z);
+        let b = x * y * a;
+        let (tangent, bitangent) = ([1.0 + sign * x * x * a, sign * b, -sign * x], [b, sign + y * y * a, -y]);
+        let (u, v, w) = (dot(tangent, view_dir), dot(bitangent, view_dir), dot(normal, view_dir).max(1e-6));
+        let length = (u * u + v * v + w * w).sqrt();
+        Basis { frame: frame_from_normal(normal, view_dir), tangent, bitangent, view: [u, v, w].map(|x| x / length) }
+    }
+
+    fn local(&self, dir: [f64; 3]) -> [f64; 3] {
+        [dot(self.tangent, dir), dot(self.bitangent, dir), dot(self.frame.normal, dir)]
+    }
+
+    fn world(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        add(add(scale(self.tangent, x), scale(self.bitangent, y)), scale(self.frame.normal, z))
+    }
+}
+
+/// Lobes that directions are drawn for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Lobe {
+    Diffuse,
+    Specular,
+    Coat,
+    Sheen,
+    Transmission,
+}
+
+/// All lobes of a point.
+pub(crate) struct Bsdf<'m> {
+    model: &'m Model,
+    base: Basis,
+    coat_basis: Basis,
+    perceptual_roughness: f64,
+    diffuse: [f64; 3],
+    /// f0 and f90 of the interface over the diffuse base.
+    dielectric: [f64; 2],
+    f0: [f64; 3],
+    f90: [f64; 3],
+    alpha: f64,
+    compensation: [f64; 3],
+    multiscatter: Option<Multiscatter<f64>>,
+    coat: Option<Coat<f64>>,
+    sheen: Option<Sheen<f64>>,
+    transmission: Option<Transmission<f64>>,
+    under_coat: [f64; 3],
+    under_sheen: f64,
+    /// Radiance of its own.
+    pub(crate) emission: [f64; 3],
+    /// Lobes with their shares of the samples; the shares' sum is 1.
+    shares: [(Lobe, f64); 5],
+}
+
+impl<'m> Bsdf<'m> {
+    pub(crate) fn new(model: &'m Model, surface: &Surface, view_dir: [f64; 3]) -> Bsdf<'m> {
+        let base = Basis::new(surface.normal, view_dir);
+        let n_dot_v = base.frame.n_dot_v;
+        let r = surface.perceptual_roughness;
+        let floored = |r: f64| alpha_from_perceptual_roughness(r).max(ALPHA_FLOOR);
+        let dielectric = [f0_from_ior(surface.ior) * surface.specular, surface.specular];
+        let f0 = f0_from_metallic(surface.base_color, surface.metallic, dielectric[0]);
+        let f90 = [surface.specular + (1.0 - surface.specular) * surface.metallic; 3];
+        let f90 = if model.conductor.is_some() { [1.0; 3] } else { f90 };
+        let color = diffuse_color(surface.base_color, surface.metallic);
+        let through = surface.transmission_weight * (1.0 - surface.metallic.clamp(0.0, 1.0));
+        let has_specular = model.conductor.is_some() || f0.iter().chain(&f90).any(|f| *f > 0.0);
+        let has_diffuse = color.iter().any(|c| *c > 0.0);
+
+        let couples = has_diffuse && dielectric[1] > 0.0 && model.coupling != Coupling::None;
+        let dfg = if has_specular && (model.compensates() || couples) { model.dfg(n_dot_v, r) } else { [1.0, 0.0] };
+        let mut diffuse = scale(color, 1.0 - surface.transmission_weight);
+        if couples {
+            let share = if model.compensates() { coupling_compensated::<f64> } else { coupling_single::<f64> };
+            diffuse = scale(diffuse, share(dielectric[0], dielectric[1], dfg));
+        }
+        let compensation = model.compensation.map_or([1.0; 3], |factor| factor(f0, f90, dfg));
+        let multiscatter = (model.multiscatter && has_specular).then(|| multiscatter_from_dfg(f0, f90, dfg, r));
+
+        let mut made = Bsdf {
+            model,
+            base,
+            coat_basis: base,
+            perceptual_roughness: r,
+            diffuse,
+            dielectric,
+            f0,
+            f90,
+            alpha: floored(r),
+            compensation,
+            multiscatter,
+            coat: None,
+            sheen: None,
+            transmission: (through > 0.0).then(|| Transmission {
+                color: scale(color, surface.transmission_weight),
+                eta: surface.ior,
+                alpha: floored(r),
+            }),
+            under_coat: [1.0; 3],
+            under_sheen: 1.0,
+            emission: surface.emission,
+            shares: [(Lobe::Diffuse, 0.0); 5],
+        };
+        if surface.coat_weight > 0.0 {
+            made.coat_basis = Basis::new(surface.coat_normal, view_dir);
+            let coat = Coat {
+                weight: surface.coat_weight,
+                color: surface.coat_color,
+                f0: f0_from_ior(surface.coat_ior),
+                alpha: floored(surface.coat_roughness),
+            };
+            let n_dot_v = made.coat_basis.frame.n_dot_v;
+            made.under_coat = coat_base(coat, n_dot_v, model.dfg(n_dot_v, surface.coat_roughness));
+            made.coat = Some(coat);
+        }
+        if surface.sheen_color.iter().any(|c| *c > 0.0) {
+            let sheen = Sheen { color: surface.sheen_color, perceptual_roughness: surface.sheen_roughness };
+            made.under_sheen = sheen_base(sheen, n_dot_v);
+            made.sheen = Some(sheen);
+        }
+        made.emission = mul(surface.emission, scale(made.under_coat, made.under_sheen));
+        made.share(has_specular);
+        made
+    }
+
+    /// Gives each lobe its share of the samples: by what it may reflect.
+    fn share(&mut self, has_specular: bool) {
+        let most = |c: [f64; 3]| c[0].max(c[1]).max(c[2]).max(0.0);
+        let grazing = (1.0 - self.base.frame.n_dot_v).powi(5);
+        let reflected = most(std::array::from_fn(|i| self.f0[i] + (self.f90[i] - self.f0[i]).max(0.0) * grazing));
+        let below = most(self.under_coat) * self.under_sheen;
+        let multiscatter = self.multiscatter.map_or(0.0, |lobe| most(lobe.color) * lobe.loss);
+        let weights = [
+            (Lobe::Diffuse, (most(self.diffuse) + multiscatter) * below),
+            (Lobe::Specular, if has_specular { (reflected * below).max(SHARE_FLOOR) } else { 0.0 }),
+            (Lobe::Coat, self.coat.map_or(0.0, |coat| (coat.weight * (coat.f0 + grazing)).max(SHARE_FLOOR))),
+            (Lobe::Sheen, self.sheen.map_or(0.0, |sheen| (0.5 * most(sheen.color)).max(SHARE_FLOOR))),
+            (Lobe::Transmission, self.transmission.map_or(0.0, |lobe| (most(lobe.color) * below).max(SHARE_FLOOR))),
+        ];
+        let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
+        if total > 0.0 {
+            self.shares = weights.map(|(lobe, weight)| (lobe, weight / total));
+        }
+    }
+
+    /// Whether any lobe is there.
+    pub(crate) fn reflects(&self) -> bool {
+        self.shares.iter().any(|(_, share)| *share > 0.0)
+    }
+
+    /// The shading normal.
+    pub(crate) fn normal(&self) -> [f64; 3] {
+        self.base.frame.normal
+    }
+
+    /// BSDF times |n.l| of all lobes, [1/sr].
+    pub(crate) fn eval(&self, l: [f64; 3]) -> [f64; 3] {
+        let frame = self.base.frame;
+        let half = half_from_light(frame, l);
+        let mut base = [0.0; 3];
+        if half.n_dot_l > 0.0 {
+            base = add(self.eval_diffuse(&half), self.eval_specular(&half));
+            if let Some(lobe) = self.multiscatter {
+                let dfg = self.model.dfg(half.n_dot_l, self.perceptual_roughness);
+                base = add(base, multiscatter_eval(frame, l, lobe, dfg));
+            }
+        } else if let Some(lobe) = self.transmission {
+            // What enters a body is compressed by eta^2, and leaves it again.
+            base = scale(transmission_eval(frame, l, lobe), lobe.eta * lobe.eta);
+        }
+        let mut sum = mul(base, scale(self.under_coat, self.under_sheen));
+        if let Some(coat) = self.coat {
+            sum = add(sum, scale(coat_eval(self.coat_basis.frame, l, coat), self.under_sheen));
+        }
+        if let Some(sheen) = self.sheen {
+            sum = add(sum, sheen_eval(frame, l, sheen));
+        }
+        finite_or_zero(sum)
+    }
+
+    fn eval_diffuse(&self, half: &Half<f64>) -> [f64; 3] {
+        if self.diffuse == [0.0; 3] {
+            return [0.0; 3];
+        }
+        let frame = self.base.frame;
+        let brdf =
+            (self.model.diffuse)(self.diffuse, frame.n_dot_v, half.n_dot_l, half.l_dot_h, self.perceptual_roughness);
+        let mut part = scale(brdf, half.n_dot_l);
+        if self.model.coupling == Coupling::Reciprocal && self.dielectric[1] > 0.0 {
+            let dfg = self.model.dfg(half.n_dot_l, self.perceptual_roughness);
+            let [f0, f90] = self.dielectric;
+            part = scale(part, coupling_light(f0, f90, dfg, self.perceptual_roughness));
+        }
+        finite_or_zero(part)
+    }
+
+    fn eval_specular(&self, half: &Half<f64>) -> [f64; 3] {
+        let d = (self.model.d)(half.n_dot_h, half.sin2_theta_h, self.alpha);
+        let v = (self.model.v)(self.base.frame.n_dot_v, half.n_dot_l, half.l_dot_h, self.alpha);
+        let f = self.model.reflectance(self.f0, self.f90, half.l_dot_h);
+        finite_or_zero(mul(scale(f, v * half.n_dot_l * d), self.compensation))
+    }
+
+    /// A direction for a number that chooses the lobe and two that place the direction. It may carry no light.
+    pub(crate) fn sample(&self, choice: f64, u: [f64; 2]) -> [f64; 3] {
+        let mut rest = choice;
+        let mut chosen = None;
+        for (lobe, share) in self.shares {
+            if share > 0.0 {
+                chosen = Some(lobe);
+                if rest < share {
+                    break;
+                }
+            }
+            rest -= share;
+        }
+        // What leaves through the wrong side of its lobe's surface carries no light.
+        let (basis, local, side) = match (chosen, self.transmission) {
+            (Some(Lobe::Specular), _) => (&self.base, specular_sample(self.base.view, self.alpha, u), 1.0),
+            (Some(Lobe::Coat), _) => {
+                (&self.coat_basis, specular_sample(self.coat_basis.view, self.coat_alpha(), u), 1.0)
+            }
+            (Some(Lobe::Sheen), _) => (&self.base, sheen_sample(self.base.view, u), 1.0),
+            (Some(Lobe::Transmission), Some(lobe)) => (&self.base, transmission_sample(self.base.view, lobe, u), -1.0),
+            _ => (&self.base, diffuse_sample(self.base.view, u), 1.0),
+        };
+        if local[2] * side > 0.0 { basis.world(local) } else { [0.0; 3] }
+    }
+
+    fn coat_alpha(&self) -> f64 {
+        self.coat.map_or(1.0, |coat| coat.alpha)
+    }
+
+    /// The density at which [`Self::sample`] draws a direction [1/sr]; 0 for no direction.
+    pub(crate) fn density(&self, l: [f64; 3]) -> f64 {
+        let local = self.base.local(l);
+        let mut sum = 0.0;
+        for (lobe, share) in self.shares {
+            if share == 0.0 {
+                continue;
+            }
+            let in_coat = if lobe == Lobe::Coat { self.coat_basis.local(l) } else { local };
+            let density = match (lobe, self.transmission) {
+                (Lobe::Transmission, Some(lobe)) if local[2] < 0.0 => transmission_pdf(self.base.view, local, lobe),
+                (Lobe::Diffuse, _) if local[2] > 0.0 => diffuse_pdf(self.base.view, local),
+                (Lobe::Specular, _) if local[2] > 0.0 => specular_pdf(self.base.view, local, self.alpha),
+                (Lobe::Coat, _) if in_coat[2] > 0.0 => specular_pdf(self.coat_basis.view, in_coat, self.coat_alpha()),
+                (Lobe::Sheen, _) if local[2] > 0.0 => sheen_pdf(self.base.view, local),
+                _ => 0.0,
+            };
+            sum += share * density;
+        }
+        sum
+    }
+}
+
+/// A direction across a normal, and a second one.
+pub(crate) fn across(normal: [f64; 3]) -> [[f64; 3]; 2] {
+    let basis = Basis::new(normal, normal);
+    [basis.tangent, cross(normal, basis.tangent)]
+}
+
+#[cfg(test)]
+mod tests {
+    use halfvector_graph::method::Methods;
+
+    use super::*;
+    use crate::random::Random;
+
+    fn surface() -> Surface {
+        Surface {
+            base_color: [0.8, 0.5, 0.2],
+            metallic: 0.0,
+            perceptual_roughness: 0.5,
+            ior: 1.5,
+            specular: 1.0,
+            normal: [0.0, 0.0, 1.0],
+            occlusion: 1.0,
+            emission: [0.0; 3],
+            opacity: 1.0,
+            coat_weight: 0.0,
+            coat_color: [1.0; 3],
+            coat_roughness: 0.3,
+            coat_ior: 1.5,
+            coat_normal: [0.0, 0.0, 1.0],
+            sheen_color: [0.0; 3],
+            sheen_roughness: 0.4,
+            transmission_weight: 0.0,
+        }
+    }
+
+    /// What is drawn by the lobes and what is drawn evenly over the sphere have the same mean, and densities integrate to 1 at
+    /// most.
+    #[test]
+    fn samples_fit_their_densities() {
+        let tilted =
+            [0.28, -0.1, 0.954_777_5].map(|x: f64| x / (0.28_f64.powi(2) + 0.01 + 0.954_777_5_f64.powi(2)).sqrt());
+        let surfaces = [
+            surface(),
+            Surface { metallic: 1.0, perceptual_roughness: 0.7, ..surface() },
+            Surface { coat_weight: 0.8, coat_roughness: 0.5, coat_normal: tilted, ..surface() },
+            Surface { sheen_color: [0.7; 3], ..surface() },
+            Surface { transmission_weight: 0.9, perceptual_roughness: 0.7, ..surface() },
+            Surface { normal: tilted, metallic: 0.5, ..surface() },
+        ];
+        for (case, surface) in surfaces.iter().enumerate() {
+            for compensation in ["turquin", "kulla_conty", "none"] {
+                let mut methods = Methods::default();
+                methods.set("compensation", compensation).expect("a method");
+                let model = Model::new(&methods, None);
+                let view = [0.6, 0.0, 0.8];
+                let bsdf = Bsdf::new(&model, surface, view);
+                let n = 60_000_u32;
+                let (mut by_lobes, mut evenly, mut densities) = ([0.0; 2], [0.0; 2], 0.0);
+                for i in 0..n {
+                    let mut random = Random::new(3, u64::from(i), case as u64);
+                    let l = bsdf.sample(random.number(), random.pair());
+                    let density = bsdf.density(l);
+                    let x = if density > 0.0 { bsdf.eval(l)[1] / density } else { 0.0 };
+                    by_lobes = [by_lobes[0] + x, by_lobes[1] + x * x];
+                    let [u, v] = random.pair();
+                    let (z, phi) = (1.0 - 2.0 * u, 2.0 * std::f64::consts::PI * v);
+                    let s = (1.0 - z * z).sqrt();
+                    let l = [s * phi.cos(), s * phi.sin(), z];
+                    let x = bsdf.eval(l)[1] * 4.0 * std::f64::consts::PI;
+                    evenly = [evenly[0] + x, evenly[1] + x * x];
+                    densities += bsdf.density(l) * 4.0 * std::f64::consts::PI / f64::from(n);
+                }
+                let mean = |[sum, square]: [f64; 2]| {
+                    let mean = sum / f64::from(n);
+                    (mean, ((square / f64::from(n) - mean * mean) / f64::from(n)).sqrt())
+                };
+                let ((a, da), (b, db)) = (mean(by_lobes), mean(evenly));
+                assert!((a - b).abs() < 4.5 * da.hypot(db), "case {case}, {compensation}: {a} +- {da}, {b} +- {db}");
+                assert!((0.8..1.03).contains(&densities) && da < db, "case {case}: {densities}, {da} {db}");
+            }
+        }
+    }
+}

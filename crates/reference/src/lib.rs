@@ -1,0 +1,30 @@
+//! What is true: a Monte Carlo renderer in f64, and metrics of difference between pictures.
+//!
+//! The renderer evaluates a material's own `material(context) -> Surface` by the interpreter in f64, reflects by the lobes of
+//! `halfvector-brdf` in f64, traces shadows, and integrates the environment itself: no prefiltered levels, no split sum, no
+//! fitted albedos. Every pixel comes with its standard error.
+//!
+//! What it does not do: displacement, anisotropic and thin-film lobes ([`Reference::notes`] tells of them), and light inside
+//! of bodies: what enters a transmitting surface is refracted once and sees the environment, as the shaders have it.
+
+mod albedo;
+mod bsdf;
+mod camera;
+mod environment;
+mod error;
+mod film;
+mod geometry;
+mod light;
+mod material;
+pub mod metrics;
+mod model;
+mod random;
+mod render;
+mod texture;
+mod wave;
+
+pub use environment::EnvironmentFilter;
+pub use error::ReferenceError;
+pub use film::Picture;
+pub use model::Conductor;
+pub use render::{Reference, RenderOptions};

@@ -1,0 +1,380 @@
+//! Materials as the reference evaluates them: the document's own `material(context) -> Surface`, run in f64 for many
+//! points at once.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use halfvector_codegen::input_value;
+use halfvector_codegen::reflection::{Resource, SamplerSource, TextureSource, UniformSource, UniformType};
+use halfvector_graph::document::SurfaceSettings;
+use halfvector_graph::library::Library;
+use halfvector_graph::method::Methods;
+use halfvector_interp::{
+    Column, Derivatives, Entry, Limits, Machine, OutputColumn, Outputs, Program, Resources, Texture,
+};
+use halfvector_scene::{Scene, SceneMaterial};
+
+use crate::ReferenceError;
+use crate::geometry::Point;
+use crate::texture::{Textures, sampler};
+
+/// The surface at one point, as the surface node gives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Surface {
+    pub(crate) base_color: [f64; 3],
+    pub(crate) metallic: f64,
+    pub(crate) perceptual_roughness: f64,
+    pub(crate) ior: f64,
+    pub(crate) specular: f64,
+    pub(crate) normal: [f64; 3],
+    pub(crate) occlusion: f64,
+    pub(crate) emission: [f64; 3],
+    pub(crate) opacity: f64,
+    pub(crate) coat_weight: f64,
+    pub(crate) coat_color: [f64; 3],
+    pub(crate) coat_roughness: f64,
+    pub(crate) coat_ior: f64,
+    pub(crate) coat_normal: [f64; 3],
+    pub(crate) sheen_color: [f64; 3],
+    pub(crate) sheen_roughness: f64,
+    pub(crate) transmission_weight: f64,
+}
+
+/// The members of the shader's struct that are read, each with its number of components, in the order of [`Surface`].
+const MEMBERS: [(&str, usize); 17] = [
+    ("base_color", 3),
+    ("metallic", 1),
+    ("perceptual_roughness", 1),
+    ("ior", 1),
+    ("specular", 1),
+    ("normal", 3),
+    ("occlusion", 1),
+    ("emission", 3),
+    ("opacity", 1),
+    ("coat_weight", 1),
+    ("coat_color", 3),
+    ("coat_roughness", 1),
+    ("coat_ior", 1),
+    ("coat_normal", 3),
+    ("sheen_color", 3),
+    ("sheen_roughness", 1),
+    ("transmission_weight", 1),
+];
+
+/// Numbers of a [`Surface`].
+const NUMBERS: usize = 33;
+
+/// Members that change what is seen and that the reference does not model, with the value at which they change nothing.
+const UNMODELLED: [(&str, f64); 3] = [("anisotropy", 0.0), ("thin_film_weight", 0.0), ("height", 0.0)];
+
+impl Surface {
+    fn from_numbers(numbers: &[f64; NUMBERS]) -> Surface {
+        let mut rest = numbers.iter().copied();
+        let mut one = || rest.next().unwrap_or_default();
+        Surface {
+            base_color: [one(), one(), one()],
+            metallic: one(),
+            perceptual_roughness: one(),
+            ior: one(),
+            specular: one(),
+            normal: [one(), one(), one()],
+            occlusion: one(),
+            emission: [one(), one(), one()],
+            opacity: one(),
+            coat_weight: one(),
+            coat_color: [one(), one(), one()],
+            coat_roughness: one(),
+            coat_ior: one(),
+            coat_normal: [one(), one(), one()],
+            sheen_color: [one(), one(), one()],
+            sheen_roughness: one(),
+            transmission_weight: one(),
+        }
+    }
+}
+
+/// Something of a point that a material asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Context {
+    Uv0,
+    Uv1,
+    WorldPosition,
+    ObjectPosition,
+    WorldNormal,
+    WorldTangent,
+    ViewDir,
+    Time,
+}
+
+impl Context {
+    fn from_name(name: &str) -> Option<Context> {
+        Some(match name {
+            "uv0" => Context::Uv0,
+            "uv1" => Context::Uv1,
+            "world_position" => Context::WorldPosition,
+            "object_position" => Context::ObjectPosition,
+            "world_normal" => Context::WorldNormal,
+            "world_tangent" => Context::WorldTangent,
+            "view_dir" => Context::ViewDir,
+            "time" => Context::Time,
+            _ => return None,
+        })
+    }
+
+    fn of(self, point: &Point, component: usize) -> f64 {
+        match self {
+            Context::Uv0 => point.uv0[component],
+            Context::Uv1 => point.uv1[component],
+            Context::WorldPosition => point.position[component],
+            Context::ObjectPosition => point.object_position[component],
+            Context::WorldNormal => point.normal[component],
+            Context::WorldTangent => point.tangent[component],
+            Context::ViewDir => point.view_dir[component],
+            Context::Time => 0.0,
+        }
+    }
+}
+
+/// A material ready to be evaluated.
+pub(crate) struct Material {
+    program: Program,
+    /// What each input is.
+    inputs: Vec<(Context, usize)>,
+    /// Where each output goes in the numbers of a [`Surface`].
+    outputs: Vec<Option<usize>>,
+    buffers: Vec<((u32, u32), Vec<u8>)>,
+    textures: Vec<((u32, u32), Arc<Texture>)>,
+    samplers: Vec<((u32, u32), halfvector_interp::Sampler)>,
+    /// Whether it takes derivatives of its own, beside those that choose a texture's level.
+    pub(crate) derives: bool,
+    /// Whether it asks for texture coordinates, tangents or places in object space.
+    pub(crate) precise: bool,
+    /// What opacity does, and whether both sides are seen.
+    pub(crate) settings: SurfaceSettings,
+}
+
+impl Material {
+    /// Compiles a material of a scene. `notes` takes what of it is not modelled.
+    pub(crate) fn new(
+        scene: &Scene,
+        material: &SceneMaterial,
+        methods: &Methods,
+        textures: &mut Textures,
+        notes: &mut Vec<String>,
+    ) -> Result<Material, ReferenceError> {
+        let document = &material.document;
+        let wrong = |why: String| ReferenceError::Material { material: document.name.clone(), why };
+        let shader = halfvector_codegen::material(document, Library::standard(), methods)
+            .map_err(|error| wrong(error.to_string()))?;
+        let module = naga::front::wgsl::parse_str(&shader.wgsl).map_err(|error| wrong(error.to_string()))?;
+        let info = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())
+            .validate(&module)
+            .map_err(|error| wrong(error.as_inner().to_string()))?;
+        let program =
+            Program::compile(&module, &info, Entry::Function("material")).map_err(|error| wrong(error.to_string()))?;
+
+        let component = |part: Option<&str>| match part {
+            None | Some("x") => Some(0),
+            Some("y") => Some(1),
+            Some("z") => Some(2),
+            Some("w") => Some(3),
+            Some(_) => None,
+        };
+        let mut inputs = Vec::new();
+        for slot in program.inputs() {
+            let mut path = slot.name.split('.').skip(1);
+            let context = path.next().and_then(Context::from_name);
+            match (context, component(path.next())) {
+                (Some(context), Some(component)) => inputs.push((context, component)),
+                _ => return Err(wrong(format!("it asks for `{}`, which the reference does not know", slot.name))),
+            }
+        }
+        let place = |name: &str| {
+            let mut path = name.split('.');
+            let (member, component) = (path.next()?, component(path.next())?);
+            let before = MEMBERS.iter().position(|(known, _)| *known == member)?;
+            Some(MEMBERS[..before].iter().map(|(_, count)| count).sum::<usize>() + component)
+        };
+        let outputs: Vec<Option<usize>> = program.outputs().iter().map(|slot| place(&slot.name)).collect();
+
+        let mut made = Material {
+            inputs,
+            outputs,
+            buffers: Vec::new(),
+            textures: Vec::new(),
+            samplers: Vec::new(),
+            // The text of comments may say so too: that costs time, no more.
+            derives: ["dpdx", "dpdy", "fwidth"].iter().any(|name| shader.wgsl.contains(name)),
+            precise: false,
+            settings: document.surface,
+            program,
+        };
+        let asked = |context: &(Context, usize)| {
+            matches!(context.0, Context::Uv0 | Context::Uv1 | Context::ObjectPosition | Context::WorldTangent)
+        };
+        made.precise = made.inputs.iter().any(asked);
+        for binding in &shader.reflection.bindings {
+            let at = (binding.group, binding.binding);
+            match &binding.resource {
+                Resource::Uniform(block) => {
+                    let fill = |source: &UniformSource, numbers: &mut Vec<f32>| {
+                        let member = block.members.iter().find(|member| member.source == *source);
+                        match (source, member.map(|member| member.ty)) {
+                            (UniformSource::Input(socket), Some(UniformType::Value(ty))) => {
+                                let value = input_value(document, Library::standard(), socket, ty);
+                                numbers.extend(value.unwrap_or_default());
+                            }
+                            (UniformSource::Time, _) => numbers.push(0.0),
+                            _ => {}
+                        }
+                    };
+                    made.buffers.push((at, block.pack(fill).map_err(|error| wrong(error.to_string()))?));
+                }
+                Resource::Texture(TextureSource::Image(image)) => {
+                    let texture = textures.get(scene, material, image)?;
+                    made.textures.push((at, texture));
+                }
+                Resource::Texture(_) => {}
+                Resource::Sampler(SamplerSource::Image { wrap_u, wrap_v, filter }) => {
+                    made.samplers.push((at, sampler(*wrap_u, *wrap_v, *filter)));
+                }
+                Resource::Sampler(SamplerSource::LinearClamp) => {}
+            }
+        }
+        made.note_unmodelled(&document.name, notes)?;
+        Ok(made)
+    }
+
+    /// Tells of members that the reference leaves out and that are set at any of some points.
+    fn note_unmodelled(&self, name: &str, notes: &mut Vec<String>) -> Result<(), ReferenceError> {
+        let points: Vec<Point> = (0..64)
+            .map(|i| {
+                let (u, v) = (f64::from(i % 8) / 8.0 + 0.03, f64::from(i / 8) / 8.0 + 0.05);
+                let place = DVec3::new(2.0 * u - 1.0, 1.0 - 2.0 * v, 0.5);
+                Point {
+                    position: place,
+                    object_position: place,
+                    uv0: DVec2::new(u, v),
+                    uv1: DVec2::new(u, v),
+                    normal: DVec3::Z,
+                    geometric_normal: DVec3::Z,
+                    view_dir: DVec3::Z,
+                    tangent: DVec3::X.extend(1.0),
+                }
+            })
+            .collect();
+        let mut evaluator = self.evaluator(name)?;
+        evaluator.run(&points, None)?;
+        for (member, neutral) in UNMODELLED {
+            let slot = self.program.outputs().iter().position(|slot| slot.name == member);
+            let Some(OutputColumn::Float(numbers)) = slot.map(|slot| &evaluator.results.columns[slot]) else {
+                continue;
+            };
+            if numbers.iter().any(|x| *x != neutral) {
+                notes.push(format!("the reference leaves out `{member}` of the material `{name}`"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The machine that evaluates it: one for each thread.
+    pub(crate) fn evaluator(&self, name: &str) -> Result<Evaluator<'_>, ReferenceError> {
+        let wrong = |why: String| ReferenceError::Material { material: name.to_owned(), why };
+        let mut resources = Resources::default();
+        for ((group, binding), bytes) in &self.buffers {
+            resources = resources.buffer(*group, *binding, bytes);
+        }
+        for ((group, binding), texture) in &self.textures {
+            resources = resources.texture(*group, *binding, texture);
+        }
+        for ((group, binding), sampler) in &self.samplers {
+            resources = resources.sampler(*group, *binding, *sampler);
+        }
+        let machine = self.program.machine(Limits::default()).map_err(|error| wrong(error.to_string()))?;
+        Ok(Evaluator {
+            material: self,
+            name: name.to_owned(),
+            machine,
+            resources,
+            columns: Default::default(),
+            results: Outputs::default(),
+        })
+    }
+}
+
+/// A material and the memory to run it.
+pub(crate) struct Evaluator<'m> {
+    material: &'m Material,
+    name: String,
+    machine: Machine<'m, f64>,
+    resources: Resources<'m>,
+    /// Inputs, and their changes along x and y.
+    columns: [Vec<Vec<f64>>; 3],
+    results: Outputs<f64>,
+}
+
+/// Points, and the same points one step along x and along y of the picture.
+pub(crate) type Steps<'a> = [&'a [Point]; 2];
+
+impl Evaluator<'_> {
+    /// The surface at each point. `steps` are needed where the material [derives](Material::derives).
+    pub(crate) fn surfaces(
+        &mut self,
+        points: &[Point],
+        steps: Option<Steps<'_>>,
+        surfaces: &mut Vec<Surface>,
+    ) -> Result<(), ReferenceError> {
+        surfaces.clear();
+        if points.is_empty() {
+            return Ok(());
+        }
+        self.run(points, steps)?;
+        let columns: Vec<(usize, &[f64])> = self
+            .results
+            .columns
+            .iter()
+            .zip(&self.material.outputs)
+            .filter_map(|(column, place)| match (column, place) {
+                (OutputColumn::Float(numbers), Some(place)) => Some((*place, numbers.as_slice())),
+                _ => None,
+            })
+            .collect();
+        let mut numbers = [0.0; NUMBERS];
+        surfaces.extend((0..points.len()).map(|i| {
+            for (place, column) in &columns {
+                numbers[*place] = column[i];
+            }
+            Surface::from_numbers(&numbers)
+        }));
+        Ok(())
+    }
+
+    fn run(&mut self, points: &[Point], steps: Option<Steps<'_>>) -> Result<(), ReferenceError> {
+        let inputs = &self.material.inputs;
+        let sets = [Some(points), steps.map(|s| s[0]), steps.map(|s| s[1])];
+        for (k, (columns, set)) in self.columns.iter_mut().zip(sets).enumerate() {
+            columns.resize(inputs.len(), Vec::new());
+            for (column, (context, component)) in columns.iter_mut().zip(inputs) {
+                column.clear();
+                let Some(set) = set else { continue };
+                column.extend(set.iter().zip(points).map(|(point, base)| {
+                    let x = context.of(point, *component);
+                    if k == 0 {
+                        return x;
+                    }
+                    let change = x - context.of(base, *component);
+                    // The seam of a texture is no step.
+                    if matches!(context, Context::Uv0 | Context::Uv1) { change - change.round() } else { change }
+                }));
+            }
+        }
+        let columns = |set: usize| -> Vec<Column<'_, f64>> {
+            self.columns[set].iter().map(|column| Column::Float(column)).collect()
+        };
+        let (values, ddx, ddy) = (columns(0), columns(1), columns(2));
+        let derivatives = if steps.is_some() { Derivatives::Given { ddx: &ddx, ddy: &ddy } } else { Derivatives::Zero };
+        self.machine
+            .run(&values, points.len(), &mut self.results, &self.resources, derivatives)
+            .map_err(|error| ReferenceError::Material { material: self.name.clone(), why: error.to_string() })
+    }
+}

@@ -1,0 +1,10 @@
+//! How different two pictures are: root mean square, relative error, FLIP; with the pictures' own noise taken out where
+//! it is known.
+
+mod difference;
+mod flip;
+mod palette;
+
+pub use difference::{Difference, Scores, difference, scores};
+pub use flip::{FLIP_PIXELS_PER_DEGREE, FlipOptions, flip_hdr, flip_ldr};
+pub use palette::magma;
