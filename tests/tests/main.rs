@@ -9,6 +9,7 @@ mod images;
 mod interp;
 mod methods;
 mod normal_tangent;
+mod raster;
 mod relief;
 mod support;
 mod tidy;

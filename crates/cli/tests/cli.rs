@@ -131,8 +131,7 @@ fn wrong_usage_ends_with_2_before_any_work() {
         ("--size", "100000x100000", "smaller size"),
         ("--samples", "0", "1..=4096"),
         ("--samples", "many", "invalid digit"),
-        ("--backend", "cpu", "does not exist yet"),
-        ("--backend", "abacus", "auto and gpu"),
+        ("--backend", "abacus", "gpu and cpu"),
         ("--light", "candle:1", "candle"),
         ("--tone-map", "sepia", "pbr-neutral"),
         ("--background", "blue", "R,G,B"),
@@ -360,20 +359,37 @@ fn without_a_command_the_example_is_drawn() {
     assert!(picture.width() >= 256);
 }
 
-#[test]
-fn without_a_gpu_the_driver_package_is_named() {
-    let folder = Folder::new();
+/// Runs the program with no GPU to be found.
+fn without_a_driver(folder: &Folder, arguments: &[&str]) -> Run {
     let nowhere = Path::new("/nonexistent");
     let output = Command::new(env!("CARGO_BIN_EXE_halfvector"))
-        .args(["render", "plain.material.json", "-o", "a.png"])
+        .args(arguments)
         .current_dir(folder.0.path())
         .env("VK_DRIVER_FILES", nowhere)
         .env("VK_ICD_FILENAMES", nowhere)
         .env("WGPU_BACKEND", "vulkan")
         .output()
         .expect("the program starts");
-    if cfg!(target_os = "linux") {
-        Run::new(&["render without a driver"], &output).ends(1).says("mesa-vulkan-drivers");
-        assert_eq!(folder.names(), ["plain.material.json"]);
+    Run::new(arguments, &output)
+}
+
+#[test]
+fn without_a_gpu_the_cpu_draws_and_says_so() {
+    if !cfg!(target_os = "linux") {
+        return;
     }
+    let folder = Folder::new();
+    let render = ["render", "plain.material.json", "--env", "white", "--size", "16x16", "-o"];
+    without_a_driver(&folder, &[&render[..], &["gpu.png", "--backend", "gpu"]].concat())
+        .ends(1)
+        .says("mesa-vulkan-drivers")
+        .says("--backend cpu");
+    assert_eq!(folder.names(), ["plain.material.json"]);
+    without_a_driver(&folder, &[&render[..], &["auto.png"]].concat())
+        .ends(0)
+        .says("drawn on the CPU")
+        .says("mesa-vulkan-drivers");
+    folder.run(&[&render[..], &["cpu.png", "--backend", "cpu"]].concat()).ends(0).says("drawn by the CPU");
+    let bytes = |name: &str| std::fs::read(folder.path(name)).expect("a picture");
+    assert_eq!(bytes("auto.png"), bytes("cpu.png"));
 }

@@ -13,9 +13,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("crates/graph", &["shaders"]),
     ("crates/codegen", &["graph", "interp", "shaders"]),
     ("crates/scene", &["graph", "maps", "ibl"]),
+    ("crates/raster", &["graph", "codegen", "interp", "scene", "ibl", "maps", "shaders"]),
     ("crates/render", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
     ("crates/report", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),
-    ("crates/cli", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "report", "shaders"]),
+    ("crates/cli", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "raster", "render", "report", "shaders"]),
 ];
 
 /// Packages of others that only some of ours may name.

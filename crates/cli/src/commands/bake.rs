@@ -8,7 +8,7 @@ use halfvector_ibl::{
     BakeOptions, BakedEnvironment, Cube, LevelMap, LoadedEnvironment, MAX_SIZE, Quality, Source, StoredLevels,
     StoredLobe, save,
 };
-use halfvector_render::{Picture, Renderer};
+use halfvector_render::Renderer;
 use halfvector_scene::EnvironmentSource;
 
 use crate::environment::{bake_with_bar, ggx_roughness, load};

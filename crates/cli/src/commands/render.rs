@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::ToneMap;
-use halfvector_render::{RenderOptions, Renderer};
 use halfvector_scene::{Background, EnvironmentSource, Exposure, Light, MeshSource, Scene};
 
+use crate::backend::{Backend, Painter, parse_backend};
 use crate::environment::{bake, load};
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{check_place, note, progress};
+use crate::output::{check_place, note};
 use crate::picture_file::{Display, PictureFile, PictureFormat, parse_picture_file, write};
 use crate::set_value::{Assignment, numbers, parse_assignment, set};
 
@@ -63,22 +63,13 @@ pub(crate) struct RenderArgs {
     set: Vec<Assignment>,
     #[command(flatten)]
     methods: super::methods::MethodChoice,
-    /// Who draws: auto or gpu
+    /// Who draws: gpu (a software GPU where there is no other), cpu, or auto: gpu, else cpu
     #[arg(long, value_name = "NAME", default_value = "auto", value_parser = parse_backend)]
     backend: Backend,
 }
 
-/// Who draws. With one backend there is no choice yet: both mean the best GPU, a software one included.
-#[derive(Clone, Copy, Debug)]
-enum Backend {
-    Auto,
-    Gpu,
-}
-
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
-    // Both mean the same as long as there is no other backend.
-    let (Backend::Auto | Backend::Gpu) = args.backend;
     check_place(&args.output.path)?;
     let mut scene = input::scene(&args.input, args.mesh.as_ref())?;
     replace_parts(&mut scene, args)?;
@@ -99,31 +90,30 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
             args.samples
         ));
     }
-    draw(&scene, args.size, side, &args.output)?;
+    draw(&scene, args.size, side, args.backend, &args.output)?;
     Ok(0)
 }
 
 /// Draws a scene to a file.
-pub(crate) fn draw(scene: &Scene, size: [u32; 2], side: u32, output: &PictureFile) -> Result<(), Failure> {
-    let failed =
-        |error: halfvector_render::RenderError| Failure::input("the picture could not be drawn").because(error);
+pub(crate) fn draw(
+    scene: &Scene,
+    size: [u32; 2],
+    side: u32,
+    backend: Backend,
+    output: &PictureFile,
+) -> Result<(), Failure> {
     let loaded = load(&scene.environment)?;
-    let renderer = Renderer::new().map_err(failed)?;
+    let painter = Painter::open(backend)?;
     let environment = loaded.map(|loaded| bake(scene, &loaded));
-    let [width, height] = size;
-    let options = RenderOptions { width, height, samples_per_side: side, ..RenderOptions::default() };
-    let bar = progress("drawing");
-    let picture = renderer
-        .render(scene, environment.as_ref(), &options, |done| bar.set_position((done * 1000.0) as u64))
-        .map_err(failed)?;
-    bar.finish_and_clear();
+    let picture = painter.draw(scene, environment.as_ref(), size, side)?;
     let display = if scene.methods.is("encode", "report") {
         Display::AsIs
     } else {
         Display::ToneMapped { exposure: scene.exposure.factor(), tone_map: scene.tone_map }
     };
     write(output, &picture, display)?;
-    note(format_args!("{}: {width} x {height}, drawn by {}", output.path.display(), renderer.adapter()));
+    let [width, height] = size;
+    note(format_args!("{}: {width} x {height}, drawn by {}", output.path.display(), painter.name()));
     Ok(())
 }
 
@@ -239,17 +229,6 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
         return Err(format!("that is more than {MAX_PIXELS} pixels; choose a smaller size"));
     }
     Ok([width, height])
-}
-
-fn parse_backend(text: &str) -> Result<Backend, String> {
-    match text {
-        "auto" => Ok(Backend::Auto),
-        "gpu" => Ok(Backend::Gpu),
-        "cpu" | "reference" => Err(format!(
-            "the backend `{text}` does not exist yet; auto and gpu do, and both take a software GPU where there is no other"
-        )),
-        _ => Err("the backends are auto and gpu".to_owned()),
-    }
 }
 
 fn light_help() -> String {
