@@ -10,7 +10,7 @@ use halfvector_ibl::{BakeOptions, BakedEnvironment, bake};
 use halfvector_render::RenderOptions;
 use halfvector_scene::mesh::MeshData;
 use halfvector_scene::{
-    Background, BuiltinMesh, Camera, EnvironmentSource, Light, Mesh, MeshSource, Object, Scene, SceneMaterial,
+    Background, BuiltinMesh, Camera, EnvironmentSource, Light, Mesh, MeshSource, Object, Picture, Scene, SceneMaterial,
 };
 
 use crate::support::renderer;

@@ -393,3 +393,17 @@ fn without_a_gpu_the_cpu_draws_and_says_so() {
     let bytes = |name: &str| std::fs::read(folder.path(name)).expect("a picture");
     assert_eq!(bytes("auto.png"), bytes("cpu.png"));
 }
+
+#[test]
+fn what_f32_gets_wrong_is_found_and_named() {
+    let folder = Folder::new();
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/unstable");
+    std::fs::copy(examples.join("cancellation.material.json"), folder.path("wrong.material.json")).expect("copied");
+    folder.run(&["check", "--stability", "plain.material.json"]).ends(0).says("no problems");
+    folder.run(&["check", "wrong.material.json"]).ends(0);
+    folder.run(&["check", "--stability", "wrong.material.json"]).ends(3).says("`Back again` (culprit.out)");
+    let run = folder.run(&["check", "--stability", "--format", "json", "wrong.material.json"]).ends(3);
+    let json: serde_json::Value = serde_json::from_str(&run.stdout).expect("one JSON object");
+    assert_eq!(json["unstable"][0]["node"], "culprit");
+    assert!(json["edges"].is_array() && json["problems"].is_array());
+}

@@ -20,3 +20,4 @@ mod tile;
 
 pub use error::RasterError;
 pub use picture::{RasterOptions, draw};
+pub use texture::{image as texture, sampler};

@@ -87,10 +87,10 @@ pub fn draw<F: Float>(
         textures.prepare(scene, &scene.materials[index], &material.shader)?;
     }
     let sky_failed = |why: String| RasterError::Shader { material: "the background".to_owned(), why };
-    let sky_stages = match (scene.background, environment) {
+    let sky_program = match (scene.background, environment) {
         (Background::Environment, Some(_)) => {
             textures.prepare_radiance()?;
-            Some(sky::compile().map_err(sky_failed)?)
+            Some(sky::compiled().map_err(sky_failed)?)
         }
         _ => None,
     };
@@ -136,8 +136,8 @@ pub fn draw<F: Float>(
         Background::Color([r, g, b]) => [r, g, b, 1.0],
         Background::Environment | Background::None => [0.0; 4],
     };
-    let sky = sky_stages.as_ref().zip(textures.radiance());
-    let sky = sky.map(|(stages, radiance)| sky::shading(stages, &sky_block, radiance));
+    let sky = sky_program.as_ref().zip(textures.radiance());
+    let sky = sky.map(|(program, radiance)| sky::shading(program, &sky_block, radiance));
     let frame = Frame { draws, sky, clear, grid };
 
     // Tiles begin at even samples: the blocks of two by two are those of the whole picture.

@@ -27,30 +27,29 @@ pub(crate) struct Stages {
     pub(crate) fragment: Program,
 }
 
-impl Stages {
-    /// Compiles the entry points of a text. The error says what the interpreter does not do, or naga's words.
-    pub(crate) fn compile(wgsl: &str, vertex: &str, fragment: &str) -> Result<Stages, String> {
-        let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| error.message().to_owned())?;
-        let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
-            .validate(&module)
-            .map_err(|error| error.as_inner().to_string())?;
-        let stage = |name: &str| {
-            let program =
-                Program::compile(&module, &info, Entry::EntryPoint(name)).map_err(|error| error.to_string())?;
-            let foreign = program.inputs().iter().zip(parts(program.inputs())).find(|(_, part)| *part == Part::Other);
-            match foreign {
-                Some((slot, _)) => {
-                    Err(format!("the stage `{name}` reads `{}`, which is not given on the CPU", slot.name))
-                }
-                None => Ok(program),
-            }
-        };
-        Ok(Stages { vertex: stage(vertex)?, fragment: stage(fragment)? })
+/// Compiles entry points of a text. The error says what the interpreter does not do, or naga's words.
+pub(crate) fn compile<const N: usize>(wgsl: &str, stages: [&str; N]) -> Result<[Program; N], String> {
+    let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| error.message().to_owned())?;
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+        .validate(&module)
+        .map_err(|error| error.as_inner().to_string())?;
+    let mut programs = Vec::with_capacity(N);
+    for name in stages {
+        let program = Program::compile(&module, &info, Entry::EntryPoint(name)).map_err(|error| error.to_string())?;
+        let foreign = program.inputs().iter().zip(parts(program.inputs())).find(|(_, part)| *part == Part::Other);
+        if let Some((slot, _)) = foreign {
+            return Err(format!("the stage `{name}` reads `{}`, which is not given on the CPU", slot.name));
+        }
+        programs.push(program);
     }
+    programs.try_into().map_err(|_| "a stage is missing".to_owned())
+}
 
+impl Stages {
     /// Compiles the shader of a material.
     pub(crate) fn of(material: &str, shader: &Shader) -> Result<Stages, RasterError> {
-        Stages::compile(&shader.wgsl, "vs_main", "fs_main")
+        compile(&shader.wgsl, ["vs_main", "fs_main"])
+            .map(|[vertex, fragment]| Stages { vertex, fragment })
             .map_err(|why| RasterError::Unsupported { material: material.to_owned(), why })
     }
 }

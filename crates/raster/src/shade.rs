@@ -132,6 +132,9 @@ impl<'a> Shading<'a> {
         columns: &[Column<'_, F>],
         lanes: usize,
     ) -> Result<Vec<Option<[f32; 4]>>, RunError> {
+        if lanes == 0 {
+            return Ok(Vec::new());
+        }
         let machine = match machine {
             Some(machine) => machine,
             None => machine.insert(self.program.machine(Limits::default())?),

@@ -1,25 +1,25 @@
 //! The environment behind the objects: `shaders/entry/background.wgsl`, run for the samples that nothing covers.
 
 use halfvector_codegen::reflection::SamplerSource;
-use halfvector_interp::{Column, Float, Machine, Resources, RunError, Texture};
+use halfvector_interp::{Column, Float, Machine, Program, Resources, RunError, Texture};
 
-use crate::program::{Part, Stages, parts};
+use crate::program::{Part, compile, parts};
 use crate::shade::Shading;
 use crate::texture;
 
-/// Compiles the background's shader.
-pub(crate) fn compile() -> Result<Stages, String> {
-    Stages::compile(&halfvector_shaders::background(), "vs_background", "fs_background")
+/// Compiles the background's fragment stage. Its vertex stage makes one triangle over everything: that is done here.
+pub(crate) fn compiled() -> Result<Program, String> {
+    compile(&halfvector_shaders::background(), ["fs_background"]).map(|[fragment]| fragment)
 }
 
 /// The background's fragment stage with what it reads; `uniforms` are the bytes of its block.
-pub(crate) fn shading<'a>(stages: &'a Stages, uniforms: &'a [u8], radiance: &'a Texture) -> Shading<'a> {
+pub(crate) fn shading<'a>(program: &'a Program, uniforms: &'a [u8], radiance: &'a Texture) -> Shading<'a> {
     let resources = Resources::default().buffer(0, 0, uniforms).texture(0, 1, radiance).sampler(
         0,
         2,
         texture::sampler(&SamplerSource::LinearClamp),
     );
-    Shading::new(&stages.fragment, resources)
+    Shading::new(program, resources)
 }
 
 /// The colours of samples at these columns and rows of a grid.
@@ -29,7 +29,7 @@ pub(crate) fn run<'p, F: Float>(
     samples: &[[u32; 2]],
     grid: [f64; 2],
 ) -> Result<Vec<Option<[f32; 4]>>, RunError> {
-    // The triangle that the vertex stage makes covers everything; its only varying is the place in clip space.
+    // Its only varying is the place in clip space.
     let clip = |axis: usize| -> Vec<F> {
         let sign = if axis == 0 { 1.0 } else { -1.0 };
         let place = |sample: &[u32; 2]| sign * ((f64::from(sample[axis]) + 0.5) / grid[axis] * 2.0 - 1.0);

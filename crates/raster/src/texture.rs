@@ -8,7 +8,7 @@ use halfvector_maps::{Image, Texels};
 use halfvector_scene::texture_levels;
 
 /// A picture with all its mip levels; 8-bit ones stay coded. `None` when it has no texel.
-pub(crate) fn image(image: &Image, color_space: ColorSpace) -> Option<Texture> {
+pub fn image(image: &Image, color_space: ColorSpace) -> Option<Texture> {
     let levels = texture_levels(image, color_space);
     if matches!(image.texels(), Texels::U8(_)) {
         let coded = levels.all().map(|image| Level {
@@ -57,7 +57,7 @@ pub(crate) fn dfg(table: &DfgTable) -> Option<Texture> {
 }
 
 /// A sampler.
-pub(crate) fn sampler(source: &SamplerSource) -> Sampler {
+pub fn sampler(source: &SamplerSource) -> Sampler {
     let (wrap_u, wrap_v, filter) = match source {
         SamplerSource::Image { wrap_u, wrap_v, filter } => (*wrap_u, *wrap_v, *filter),
         SamplerSource::LinearClamp => (Wrap::Clamp, Wrap::Clamp, Filter::Linear),

@@ -14,9 +14,13 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("crates/codegen", &["graph", "interp", "shaders"]),
     ("crates/scene", &["graph", "maps", "ibl"]),
     ("crates/raster", &["graph", "codegen", "interp", "scene", "ibl", "maps", "shaders"]),
+    ("crates/reference", &["graph", "codegen", "interp", "raster", "scene"]),
     ("crates/render", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
     ("crates/report", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),
-    ("crates/cli", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "raster", "render", "report", "shaders"]),
+    (
+        "crates/cli",
+        &["brdf", "maps", "ibl", "graph", "codegen", "scene", "raster", "reference", "render", "report", "shaders"],
+    ),
 ];
 
 /// Packages of others that only some of ours may name.

@@ -9,7 +9,7 @@ use halfvector_ibl::{
     StoredLobe, save,
 };
 use halfvector_render::Renderer;
-use halfvector_scene::EnvironmentSource;
+use halfvector_scene::{EnvironmentSource, Picture};
 
 use crate::environment::{bake_with_bar, ggx_roughness, load};
 use crate::failure::Failure;
