@@ -226,3 +226,11 @@ pub const FILES: &[File] = files![
     "nodes/vector/tangent_space.wgsl",
     "tone_map.wgsl",
 ];
+
+/// The shader of the environment behind the objects: `entry/background.wgsl` with the files that it calls. Its entry points
+/// are `vs_background` and `fs_background`.
+pub fn background() -> String {
+    let parts = ["color.wgsl", "ibl/environment.wgsl", "entry/background.wgsl"];
+    let texts: Vec<&str> = FILES.iter().filter(|file| parts.contains(&file.path)).map(|file| file.source).collect();
+    texts.join("\n")
+}

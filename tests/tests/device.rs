@@ -7,10 +7,10 @@ use halfvector_codegen::Fold;
 use halfvector_graph::document::{AlphaMode, Document, Link, Node, Parameter, SocketRef};
 use halfvector_graph::value::{ColorSpace, ImageRef, Value};
 use halfvector_ibl::{BakeOptions, BakedEnvironment, bake};
-use halfvector_render::{Picture, RenderOptions};
+use halfvector_render::RenderOptions;
 use halfvector_scene::mesh::MeshData;
 use halfvector_scene::{
-    Background, BuiltinMesh, Camera, EnvironmentSource, Light, Mesh, MeshSource, Object, Scene, SceneMaterial,
+    Background, BuiltinMesh, Camera, EnvironmentSource, Light, Mesh, MeshSource, Object, Picture, Scene, SceneMaterial,
 };
 
 use crate::support::renderer;

@@ -10,6 +10,7 @@ mod interp;
 mod methods;
 mod nodes;
 mod normal_tangent;
+mod raster;
 mod relief;
 mod support;
 mod tidy;

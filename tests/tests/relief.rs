@@ -5,9 +5,9 @@ use glam::{DVec2, DVec3, Mat3, Mat4, Vec3};
 use halfvector_graph::document::{Document, Link, Node, SocketRef};
 use halfvector_graph::value::{ColorSpace, Filter, ImageRef, Value};
 use halfvector_maps::parallax::{parallax_occlusion, parallax_offset};
-use halfvector_render::{Picture, RenderOptions, Renderer};
+use halfvector_render::{RenderOptions, Renderer};
 use halfvector_scene::mesh::MeshData;
-use halfvector_scene::{Background, Camera, EnvironmentSource, Light, Mesh, Object, Scene, SceneMaterial};
+use halfvector_scene::{Background, Camera, EnvironmentSource, Light, Mesh, Object, Picture, Scene, SceneMaterial};
 
 use crate::support::renderer;
 

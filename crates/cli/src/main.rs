@@ -1,5 +1,6 @@
 //! The program `halfvector`: the command line, which is a contract (ARCHITECTURE.md), and nothing of the work itself.
 
+mod backend;
 mod commands;
 mod environment;
 mod failure;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use halfvector_graph::needs::ToneMap;
-use halfvector_render::Picture;
+use halfvector_scene::Picture;
 use halfvector_scene::tone_map::tone_mapped;
 use image::{ExtendedColorType, ImageEncoder};
 

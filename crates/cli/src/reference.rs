@@ -3,8 +3,7 @@
 use std::sync::Mutex;
 
 use halfvector_reference::{Reference, RenderOptions};
-use halfvector_render::Picture;
-use halfvector_scene::Scene;
+use halfvector_scene::{Picture, Scene};
 
 use crate::environment::load;
 use crate::failure::Failure;

@@ -135,8 +135,7 @@ fn wrong_usage_ends_with_2_before_any_work() {
         ("--size", "100000x100000", "smaller size"),
         ("--samples", "0", "1..=4096"),
         ("--samples", "many", "invalid digit"),
-        ("--backend", "cpu", "does not exist yet"),
-        ("--backend", "abacus", "auto, gpu and reference"),
+        ("--backend", "abacus", "gpu, cpu and reference"),
         ("--light", "candle:1", "candle"),
         ("--tone-map", "sepia", "pbr-neutral"),
         ("--background", "blue", "R,G,B"),
@@ -387,20 +386,53 @@ fn without_a_command_the_example_is_drawn() {
     assert!(picture.width() >= 256);
 }
 
-#[test]
-fn without_a_gpu_the_driver_package_is_named() {
-    let folder = Folder::new();
+/// Runs the program with no GPU to be found.
+fn without_a_driver(folder: &Folder, arguments: &[&str]) -> Run {
     let nowhere = Path::new("/nonexistent");
     let output = Command::new(env!("CARGO_BIN_EXE_halfvector"))
-        .args(["render", "plain.material.json", "-o", "a.png"])
+        .args(arguments)
         .current_dir(folder.0.path())
         .env("VK_DRIVER_FILES", nowhere)
         .env("VK_ICD_FILENAMES", nowhere)
         .env("WGPU_BACKEND", "vulkan")
         .output()
         .expect("the program starts");
-    if cfg!(target_os = "linux") {
-        Run::new(&["render without a driver"], &output).ends(1).says("mesa-vulkan-drivers");
-        assert_eq!(folder.names(), ["plain.material.json"]);
+    Run::new(arguments, &output)
+}
+
+#[test]
+fn without_a_gpu_the_cpu_draws_and_says_so() {
+    if !cfg!(target_os = "linux") {
+        return;
     }
+    let folder = Folder::new();
+    let render = ["render", "plain.material.json", "--env", "white", "--size", "16x16", "-o"];
+    without_a_driver(&folder, &[&render[..], &["gpu.png", "--backend", "gpu"]].concat())
+        .ends(1)
+        .says("mesa-vulkan-drivers")
+        .says("--backend cpu");
+    assert_eq!(folder.names(), ["plain.material.json"]);
+    without_a_driver(&folder, &[&render[..], &["auto.png"]].concat())
+        .ends(0)
+        .says("drawn on the CPU")
+        .says("mesa-vulkan-drivers");
+    folder.run(&[&render[..], &["cpu.png", "--backend", "cpu"]].concat()).ends(0).says("drawn by the CPU");
+    let bytes = |name: &str| std::fs::read(folder.path(name)).expect("a picture");
+    assert_eq!(bytes("auto.png"), bytes("cpu.png"));
+}
+
+#[test]
+fn what_f32_gets_wrong_is_found_and_named() {
+    let folder = Folder::new();
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/unstable");
+    std::fs::copy(examples.join("cancellation.material.json"), folder.path("wrong.material.json")).expect("copied");
+    let run = folder.run(&["check", "--stability", "plain.material.json"]).ends(0);
+    assert_eq!(run.stdout, "no problems\n");
+    folder.run(&["check", "wrong.material.json"]).ends(0);
+    let run = folder.run(&["check", "--stability", "wrong.material.json"]).ends(3);
+    assert!(run.stdout.contains("`Back again` (culprit.out)"), "{}", run.stdout);
+    let run = folder.run(&["check", "--stability", "--format", "json", "wrong.material.json"]).ends(3);
+    let json = run.json();
+    assert_eq!(json["unstable"][0]["node"], "culprit");
+    assert!(json["edges"].is_array() && json["problems"].is_array());
 }

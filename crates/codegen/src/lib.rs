@@ -13,6 +13,7 @@ mod passes;
 mod pipeline;
 pub mod reflection;
 pub mod target;
+pub mod uniforms;
 mod validate;
 
 #[cfg(test)]
@@ -23,7 +24,7 @@ pub use error::CodegenError;
 pub use layout::PackError;
 pub use passes::lower::input_value;
 pub use pipeline::{material, shader};
-pub use validate::{Place, Valid, ValidationError, validate};
+pub use validate::{Place, Valid, ValidationError, place_of, validate};
 
 use reflection::Reflection;
 

@@ -93,7 +93,8 @@ fn place(shader: &Shader, offsets: impl Iterator<Item = usize>) -> Option<Place>
     places.into_iter().min_by_key(rank)
 }
 
-fn place_of(shader: &Shader, offset: usize) -> Option<Place> {
+/// Where a byte of a shader's text comes from.
+pub fn place_of(shader: &Shader, offset: usize) -> Option<Place> {
     let segment = shader.segments.iter().find(|segment| segment.range().contains(&offset))?;
     let line = 1 + shader.wgsl.as_bytes()[..offset].iter().filter(|b| **b == b'\n').count();
     Some(Place { offset, line, origin: segment.origin.clone() })

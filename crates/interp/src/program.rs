@@ -142,6 +142,11 @@ impl Program {
         self.derives
     }
 
+    /// Whether it may discard invocations.
+    pub fn discards(&self) -> bool {
+        self.code.iter().any(|code| matches!(code, Code::Kill))
+    }
+
     /// Steps of the program: each is one instruction for a whole batch.
     pub fn steps(&self) -> usize {
         self.code.len()

@@ -1,5 +1,7 @@
 //! Textures in memory, and how they are sampled: addressing, filtering, levels, seamless cubes.
 
+use std::sync::LazyLock;
+
 use crate::ir::Dimension;
 use crate::real::Float;
 
@@ -16,9 +18,9 @@ pub enum Shape {
     Cube,
 }
 
-/// One level of a texture.
+/// One level of a texture; of f32 texels, or of 8-bit codes for [`Texture::from_codes`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Level {
+pub struct Level<T = [f32; 4]> {
     /// Texels along x.
     pub width: u32,
     /// Texels along y.
@@ -26,16 +28,34 @@ pub struct Level {
     /// Texels along z, 1 but for `Shape::D3`.
     pub depth: u32,
     /// RGBA; x first, then y, z, layers.
-    pub texels: Vec<[f32; 4]>,
+    pub texels: Vec<T>,
 }
 
-/// A texture of RGBA f32 texels.
+/// A texture of RGBA texels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     shape: Shape,
     layers: u32,
-    levels: Vec<Level>,
+    levels: Levels,
 }
+
+/// The levels in one of the codings. Codes take a quarter of the memory, which is what sampling waits for.
+#[derive(Clone, Debug, PartialEq)]
+enum Levels {
+    Floats(Vec<Level>),
+    /// c / 255.
+    Codes(Vec<Level<[u8; 4]>>),
+    /// The same, red, green and blue decoded from sRGB.
+    SrgbCodes(Vec<Level<[u8; 4]>>),
+}
+
+/// The linear value of each sRGB code; IEC 61966-2-1.
+static LINEAR_FROM_SRGB: LazyLock<[f32; 256]> = LazyLock::new(|| {
+    std::array::from_fn(|code| {
+        let c = code as f64 / 255.0;
+        (if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }) as f32
+    })
+});
 
 /// Why levels are no texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -51,30 +71,50 @@ pub enum TextureError {
     Cube,
 }
 
+/// Whether levels are a texture.
+fn check<T>(shape: Shape, layers: u32, levels: &[Level<T>]) -> Result<(), TextureError> {
+    if levels.is_empty() || layers == 0 {
+        return Err(TextureError::Empty);
+    }
+    for (i, level) in levels.iter().enumerate() {
+        let texels = [level.height, level.depth, layers]
+            .iter()
+            .try_fold(level.width as usize, |n, factor| n.checked_mul(*factor as usize));
+        if texels == Some(0) {
+            return Err(TextureError::Empty);
+        }
+        if texels != Some(level.texels.len()) {
+            return Err(TextureError::Texels(i));
+        }
+        if shape == Shape::Cube && (level.width != level.height || !layers.is_multiple_of(6)) {
+            return Err(TextureError::Cube);
+        }
+    }
+    Ok(())
+}
+
 impl Texture {
     /// A texture of `layers` layers (faces count; 1 for a plain one) from its levels, the finest first.
     ///
     /// # Errors
     /// Where the numbers of texels do not fit.
     pub fn new(shape: Shape, layers: u32, levels: Vec<Level>) -> Result<Texture, TextureError> {
-        if levels.is_empty() || layers == 0 {
-            return Err(TextureError::Empty);
-        }
-        for (i, level) in levels.iter().enumerate() {
-            let texels = [level.height, level.depth, layers]
-                .iter()
-                .try_fold(level.width as usize, |n, factor| n.checked_mul(*factor as usize));
-            if texels == Some(0) {
-                return Err(TextureError::Empty);
-            }
-            if texels != Some(level.texels.len()) {
-                return Err(TextureError::Texels(i));
-            }
-            if shape == Shape::Cube && (level.width != level.height || !layers.is_multiple_of(6)) {
-                return Err(TextureError::Cube);
-            }
-        }
-        Ok(Texture { shape, layers, levels })
+        check(shape, layers, &levels)?;
+        Ok(Texture { shape, layers, levels: Levels::Floats(levels) })
+    }
+
+    /// A texture whose texels are 8-bit codes: c / 255, and with `srgb` red, green and blue decoded from sRGB.
+    ///
+    /// # Errors
+    /// Where the numbers of texels do not fit.
+    pub fn from_codes(
+        shape: Shape,
+        layers: u32,
+        levels: Vec<Level<[u8; 4]>>,
+        srgb: bool,
+    ) -> Result<Texture, TextureError> {
+        check(shape, layers, &levels)?;
+        Ok(Texture { shape, layers, levels: if srgb { Levels::SrgbCodes(levels) } else { Levels::Codes(levels) } })
     }
 
     pub(crate) fn fits(&self, dimension: Dimension) -> bool {
@@ -88,7 +128,10 @@ impl Texture {
     }
 
     pub(crate) fn level_count(&self) -> u32 {
-        self.levels.len() as u32
+        match &self.levels {
+            Levels::Floats(levels) => levels.len() as u32,
+            Levels::Codes(levels) | Levels::SrgbCodes(levels) => levels.len() as u32,
+        }
     }
 
     /// Layers of an array; cubes of an array of cubes.
@@ -97,20 +140,44 @@ impl Texture {
     }
 
     pub(crate) fn size(&self, level: u32) -> [u32; 3] {
-        let level = &self.levels[(level as usize).min(self.levels.len() - 1)];
-        [level.width, level.height, level.depth]
+        let level = level.min(self.level_count() - 1) as usize;
+        match &self.levels {
+            Levels::Floats(levels) => levels[level].size(),
+            Levels::Codes(levels) | Levels::SrgbCodes(levels) => levels[level].size(),
+        }
     }
 
     /// One texel; 0 outside of the texture, as devices with robust access return.
     pub(crate) fn fetch(&self, at: [i64; 3], layer: i64, level: u32) -> [f32; 4] {
-        let Some(level) = self.levels.get(level as usize) else { return [0.0; 4] };
-        let size = [level.width, level.height, level.depth].map(i64::from);
+        if level >= self.level_count() {
+            return [0.0; 4];
+        }
+        let size = self.size(level).map(i64::from);
         let inside = at.iter().zip(size).all(|(at, size)| (0..size).contains(at));
         if !inside || !(0..i64::from(self.layers)).contains(&layer) {
             return [0.0; 4];
         }
-        level.texels[((layer * size[2] + at[2]) * size[1] + at[1]) as usize * size[0] as usize + at[0] as usize]
+        let texel = ((layer * size[2] + at[2]) * size[1] + at[1]) as usize * size[0] as usize + at[0] as usize;
+        match &self.levels {
+            Levels::Floats(levels) => levels[level as usize].texels[texel],
+            Levels::Codes(levels) => levels[level as usize].texels[texel].map(unit),
+            Levels::SrgbCodes(levels) => {
+                let [r, g, b, a] = levels[level as usize].texels[texel];
+                let linear = |code: u8| LINEAR_FROM_SRGB[usize::from(code)];
+                [linear(r), linear(g), linear(b), unit(a)]
+            }
+        }
     }
+}
+
+impl<T> Level<T> {
+    fn size(&self) -> [u32; 3] {
+        [self.width, self.height, self.depth]
+    }
+}
+
+fn unit(code: u8) -> f32 {
+    f32::from(code) / 255.0
 }
 
 /// What happens outside of 0..1.

@@ -43,9 +43,7 @@ pub(crate) struct Srgb8 {
 static SRGB8: LazyLock<Srgb8> = LazyLock::new(|| {
     let linear_of = |s: f64| linear_from_srgb([s; 3])[0] as f32;
     let linear = std::array::from_fn(|code| linear_of(code as f64 / 255.0));
-    let above = std::array::from_fn(|code| {
-        if code == 255 { f32::NAN } else { linear_of((code as f64 + 0.5) / 255.0) }
-    });
+    let above = std::array::from_fn(|code| if code == 255 { f32::NAN } else { linear_of((code as f64 + 0.5) / 255.0) });
     let start = std::array::from_fn(|step| {
         let low = step as f32 / Srgb8::STEPS as f32;
         above.iter().filter(|&&t: &&f32| t <= low).count() as u32

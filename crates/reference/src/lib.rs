@@ -1,4 +1,5 @@
-//! What is true: a Monte Carlo renderer in f64, and metrics of difference between pictures.
+//! What is true: a Monte Carlo renderer in f64, metrics of difference between pictures, and where a material's f32 computes
+//! something else than exact arithmetic ([`stability()`]).
 //!
 //! The renderer evaluates a material's own `material(context) -> Surface` by the interpreter in f64, reflects by the lobes of
 //! `halfvector-brdf` in f64, traces shadows, and integrates the environment itself: no prefiltered levels, no split sum, no
@@ -20,6 +21,7 @@ pub mod metrics;
 mod model;
 mod random;
 mod render;
+mod stability;
 mod texture;
 mod wave;
 
@@ -28,3 +30,4 @@ pub use error::ReferenceError;
 pub use film::Picture;
 pub use model::Conductor;
 pub use render::{Reference, RenderOptions};
+pub use stability::{Finding, Stability, StabilityError, stability};

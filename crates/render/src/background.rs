@@ -1,15 +1,10 @@
 //! The environment behind the objects: a pass of its own with the shader `entry/background.wgsl`.
 
-use halfvector_shaders::FILES;
+use halfvector_scene::{Tile, View};
 
 use crate::device::Gpu;
 use crate::mesh::filled_buffer;
-use crate::picture::Tile;
 use crate::program::{depth_state, texture_type};
-use crate::view::View;
-
-/// The files of the library that make up the shader.
-const PARTS: [&str; 3] = ["color.wgsl", "ibl/environment.wgsl", "entry/background.wgsl"];
 
 /// Bytes of the uniform struct `Background`.
 const UNIFORM_BYTES: usize = 64;
@@ -36,15 +31,9 @@ impl Sky {
         gamma_coded: bool,
     ) -> Sky {
         let device = &gpu.device;
-        let text: String = FILES
-            .iter()
-            .filter(|file| PARTS.contains(&file.path))
-            .map(|file| file.source)
-            .collect::<Vec<_>>()
-            .join("\n");
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("background"),
-            source: wgpu::ShaderSource::Wgsl(text.into()),
+            source: wgpu::ShaderSource::Wgsl(halfvector_shaders::background().into()),
         });
         let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
             binding,
@@ -108,27 +97,7 @@ impl Sky {
 
     /// Sets the directions of a tile; before the pass that draws it is submitted.
     pub(crate) fn set_tile(&self, gpu: &Gpu, view: &View, width: u32, height: u32, tile: Tile) {
-        let [right, up, forward] = view.tile_directions(width, height, tile);
-        let coded = f32::from(self.gamma_coded);
-        // The struct of the shader: three vec3f on 16 bytes each, a vec2f, an f32.
-        let numbers: [f32; UNIFORM_BYTES / 4] = [
-            right.x,
-            right.y,
-            right.z,
-            0.0,
-            up.x,
-            up.y,
-            up.z,
-            0.0,
-            forward.x,
-            forward.y,
-            forward.z,
-            0.0,
-            self.rotation[0],
-            self.rotation[1],
-            coded,
-            0.0,
-        ];
+        let numbers = view.background_numbers(width, height, tile, self.rotation, self.gamma_coded);
         gpu.queue.write_buffer(&self.uniforms, 0, bytemuck::cast_slice(&numbers));
     }
 

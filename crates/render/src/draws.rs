@@ -4,22 +4,20 @@ use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
 use halfvector_codegen::reflection::{Binding, Resource, SamplerSource, TextureSource};
+use halfvector_codegen::uniforms::{FrameValues, ObjectValues, fill_input};
 use halfvector_codegen::{Fold, Shader};
-use halfvector_graph::document::AlphaMode;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::Needs;
 use halfvector_graph::value::{ColorSpace, ImageRef};
 use halfvector_ibl::{BakedEnvironment, DFG_SIZE, Visibility, dfg_table_with};
-use halfvector_scene::{Object, Scene, SceneMaterial};
+use halfvector_scene::{FacePass, Object, Scene, SceneMaterial, View, dfg_visibility, passes};
 
 use crate::device::Gpu;
 use crate::error::RenderError;
 use crate::mesh::{MeshBuffers, filled_buffer};
-use crate::program::{Program, Raster, Side};
+use crate::program::Program;
 use crate::texture;
-use crate::uniforms::{Frame, fill_input, fill_object};
-use crate::view::View;
 
 /// Everything that a frame draws.
 pub(crate) struct Draws {
@@ -44,7 +42,7 @@ struct ViewGroup {
 /// One draw of one mesh.
 struct Draw {
     program: usize,
-    raster: Raster,
+    pass: FacePass,
     mesh: usize,
     material: usize,
     object: Option<wgpu::BindGroup>,
@@ -64,7 +62,7 @@ pub(crate) struct EnvironmentTextures<'e> {
 impl<'e> EnvironmentTextures<'e> {
     /// Nothing uploaded yet. The table of albedos is made for the visibility that the methods choose.
     pub(crate) fn new(baked: Option<&'e BakedEnvironment>, methods: &Methods) -> Self {
-        let visibility = if methods.is("v", "separable") { Visibility::Separable } else { Visibility::Correlated };
+        let visibility = dfg_visibility(methods);
         EnvironmentTextures { baked, radiance: None, irradiance: None, dfg: None, visibility }
     }
 
@@ -96,7 +94,7 @@ pub(crate) fn prepare(
     target: wgpu::TextureFormat,
     environment: &mut EnvironmentTextures<'_>,
 ) -> Result<Draws, RenderError> {
-    check_indices(scene)?;
+    let passes = passes(scene, view)?;
     let mut draws = Draws {
         programs: Vec::new(),
         meshes: HashMap::new(),
@@ -126,47 +124,38 @@ pub(crate) fn prepare(
         draws.materials.insert(index, group);
     }
 
-    let mut blended = Vec::new();
-    for object in &scene.objects {
-        let Some(shader) = shaders.get(&object.material) else { continue };
-        let program = program_of_material[&object.material];
-        let mesh = &scene.meshes[object.mesh];
-        let buffers = match draws.meshes.entry(object.mesh) {
-            Entry::Occupied(known) => known.into_mut(),
-            Entry::Vacant(place) => match MeshBuffers::new(gpu, object.mesh, mesh)? {
-                Some(buffers) => place.insert(buffers),
-                None => continue,
-            },
-        };
-        for input in &shader.reflection.vertex_inputs {
-            buffers.prepare(gpu, object.mesh, mesh, &input.name)?;
-        }
-        let depth = (buffers.center_in_world(&object.world_from_object) - view.position).dot(view.forward);
-        for raster in passes_of(scene, object) {
-            draws.programs[program].prepare(gpu, raster);
+    for (passes, blended) in [(&passes.solid, false), (&passes.blended, true)] {
+        for &(index, pass) in passes {
+            let object = &scene.objects[index];
+            let Some(shader) = shaders.get(&object.material) else { continue };
+            let program = program_of_material[&object.material];
+            let mesh = &scene.meshes[object.mesh];
+            let buffers = match draws.meshes.entry(object.mesh) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(place) => place.insert(MeshBuffers::new(gpu, object.mesh, mesh)?),
+            };
+            for input in &shader.reflection.vertex_inputs {
+                buffers.prepare(gpu, object.mesh, mesh, &input.name)?;
+            }
+            draws.programs[program].prepare(gpu, pass);
             let draw = Draw {
                 program,
-                raster,
+                pass,
                 mesh: object.mesh,
                 material: object.material,
                 object: object_group(gpu, &draws.programs[program], shader, object)?,
                 attributes: shader.reflection.vertex_inputs.iter().map(|input| input.name.clone()).collect(),
             };
-            if raster.blend {
-                blended.push((depth, draw));
-            } else {
-                draws.solid.push(draw);
-            }
+            let list = if blended { &mut draws.blended } else { &mut draws.solid };
+            list.push(draw);
         }
     }
-    blended.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    draws.blended = blended.into_iter().map(|(_, draw)| draw).collect();
     Ok(draws)
 }
 
 impl Draws {
     /// Sets what depends on the frame or tile; before the pass that draws it is submitted.
-    pub(crate) fn set_frame(&self, gpu: &Gpu, frame: &Frame<'_>) -> Result<(), RenderError> {
+    pub(crate) fn set_frame(&self, gpu: &Gpu, frame: &FrameValues) -> Result<(), RenderError> {
         for (binding, buffer) in self.views.iter().flat_map(|view| &view.blocks) {
             let Resource::Uniform(block) = &binding.resource else { continue };
             let bytes =
@@ -188,7 +177,7 @@ impl Draws {
 
     fn draw(&self, draws: &[Draw], pass: &mut wgpu::RenderPass<'_>) {
         for draw in draws {
-            let Some(pipeline) = self.programs[draw.program].pipeline(draw.raster) else { continue };
+            let Some(pipeline) = self.programs[draw.program].pipeline(draw.pass) else { continue };
             let Some(mesh) = self.meshes.get(&draw.mesh) else { continue };
             pass.set_pipeline(pipeline);
             let material = self.materials.get(&draw.material).and_then(Option::as_ref);
@@ -207,18 +196,6 @@ impl Draws {
             pass.draw_indexed(0..mesh.index_count, 0, 0..1);
         }
     }
-}
-
-fn check_indices(scene: &Scene) -> Result<(), RenderError> {
-    for (number, object) in scene.objects.iter().enumerate() {
-        let ranges = [("mesh", object.mesh, scene.meshes.len()), ("material", object.material, scene.materials.len())];
-        for (what, index, count) in ranges {
-            if index >= count {
-                return Err(RenderError::Missing { object: number, what, index, count });
-            }
-        }
-    }
-    Ok(())
 }
 
 /// The shader of each material that an object uses, by the material's index.
@@ -260,19 +237,6 @@ fn check_limits(gpu: &Gpu, material: &str, shader: &Shader) -> Result<(), Render
         return Err(RenderError::TooManyTextures { material, count, limit, adapter });
     }
     Ok(())
-}
-
-/// How an object is rasterised: once; a blended object that shows both sides first with its far side, then with its near one.
-fn passes_of(scene: &Scene, object: &Object) -> Vec<Raster> {
-    let surface = &scene.materials[object.material].document.surface;
-    let mirrored = object.handedness() < 0.0;
-    let raster = |cull, blend| Raster { mirrored, cull, blend };
-    match (surface.alpha_mode == AlphaMode::Blend, surface.double_sided) {
-        (false, false) => vec![raster(Some(Side::Back), false)],
-        (false, true) => vec![raster(None, false)],
-        (true, false) => vec![raster(Some(Side::Back), true)],
-        (true, true) => vec![raster(Some(Side::Front), true), raster(Some(Side::Back), true)],
-    }
 }
 
 /// Textures and samplers by what they are, so that materials share them.
@@ -386,10 +350,14 @@ fn object_group(
     shader: &Shader,
     object: &Object,
 ) -> Result<Option<wgpu::BindGroup>, RenderError> {
+    let values = ObjectValues {
+        world_from_object: object.world_from_object.to_cols_array(),
+        normal_from_object: object.normal_from_object().to_cols_array(),
+    };
     let mut bound = Vec::new();
     for binding in shader.reflection.bindings.iter().filter(|binding| binding.group == 2) {
         let Resource::Uniform(block) = &binding.resource else { continue };
-        let fill = |source: &_, numbers: &mut _| fill_object(object, source, numbers);
+        let fill = |source: &_, numbers: &mut _| values.fill(source, numbers);
         let bytes = block.pack(fill).map_err(|error| refused(gpu, error))?;
         bound.push((binding.binding, Bound::Buffer(filled_buffer(gpu, &bytes, wgpu::BufferUsages::UNIFORM))));
     }

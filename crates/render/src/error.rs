@@ -116,25 +116,16 @@ pub enum RenderError {
         /// The device.
         adapter: String,
     },
-    /// An object names a mesh or material that the scene does not have.
-    #[error("object {object} uses {what} {index}, and the scene has {count}; correct the object")]
-    Missing {
-        /// Index of the object.
-        object: usize,
-        /// `mesh` or `material`.
-        what: &'static str,
-        /// The index that it names.
-        index: usize,
-        /// How many there are.
-        count: usize,
-    },
-    /// A mesh that no buffer can be made of.
-    #[error("mesh {mesh}: {why}; export the model again")]
-    BadMesh {
-        /// Index in the scene.
-        mesh: usize,
-        /// What is wrong with it.
-        why: String,
+    /// The scene's objects and meshes do not fit together.
+    #[error(transparent)]
+    Passes(#[from] halfvector_scene::PassesError),
+    /// A shader reads a vertex attribute that meshes do not have: a mistake of this program.
+    #[error(
+        "a shader reads the attribute `{name}`, which meshes do not have; this is a mistake of Halfvector, please report it"
+    )]
+    Attribute {
+        /// Its name.
+        name: String,
     },
     /// A material could not be turned into a shader.
     #[error("material `{material}`: {why}")]

@@ -9,14 +9,10 @@ mod device;
 mod draws;
 mod error;
 mod mesh;
-mod picture;
 mod program;
 mod renderer;
 mod target;
 mod texture;
-mod uniforms;
-mod view;
 
 pub use error::RenderError;
-pub use picture::Picture;
 pub use renderer::{RenderOptions, Renderer};

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use glam::{Mat4, Vec3};
 use halfvector_scene::Mesh;
 
 use crate::device::Gpu;
@@ -17,31 +16,13 @@ pub(crate) struct MeshBuffers {
     pub(crate) indices: wgpu::Buffer,
     /// How many.
     pub(crate) index_count: u32,
-    /// Middle of the bounding box, in object space.
-    center: Vec3,
 }
 
 impl MeshBuffers {
-    /// Uploads the indices of mesh number `number` and looks at its extent; `None` when there is nothing to draw.
-    pub(crate) fn new(gpu: &Gpu, number: usize, mesh: &Mesh) -> Result<Option<MeshBuffers>, RenderError> {
-        let bad = |why: &str| RenderError::BadMesh { mesh: number, why: why.to_owned() };
-        let vertices = mesh.positions.len();
-        let lengths = [mesh.normals.len(), mesh.tangents.len(), mesh.uv0.len(), mesh.uv1.len()];
-        if lengths.iter().any(|&length| length != vertices) {
-            return Err(bad("an attribute has not one entry per vertex"));
-        }
-        if mesh.indices.iter().any(|&index| index as usize >= vertices) {
-            return Err(bad("an index has no vertex"));
-        }
-        let index_count = u32::try_from(mesh.indices.len()).map_err(|_| bad("more than 2^32 indices"))?;
-        if index_count == 0 {
-            return Ok(None);
-        }
+    /// Uploads the indices of mesh number `number`.
+    pub(crate) fn new(gpu: &Gpu, number: usize, mesh: &Mesh) -> Result<MeshBuffers, RenderError> {
         let indices = upload(gpu, number, bytemuck::cast_slice(&mesh.indices), wgpu::BufferUsages::INDEX)?;
-        let positions = || mesh.positions.iter().copied().map(Vec3::from);
-        let low = positions().fold(Vec3::INFINITY, Vec3::min);
-        let high = positions().fold(Vec3::NEG_INFINITY, Vec3::max);
-        Ok(Some(MeshBuffers { attributes: HashMap::new(), indices, index_count, center: low.midpoint(high) }))
+        Ok(MeshBuffers { attributes: HashMap::new(), indices, index_count: mesh.indices.len() as u32 })
     }
 
     /// Uploads an attribute that a shader reads, once.
@@ -53,8 +34,7 @@ impl MeshBuffers {
             "uv0" => ("uv0", bytemuck::cast_slice(&mesh.uv0)),
             "uv1" => ("uv1", bytemuck::cast_slice(&mesh.uv1)),
             other => {
-                let why = format!("a shader reads the attribute `{other}`, which meshes do not have");
-                return Err(RenderError::BadMesh { mesh: number, why });
+                return Err(RenderError::Attribute { name: other.to_owned() });
             }
         };
         if !self.attributes.contains_key(name) {
@@ -66,11 +46,6 @@ impl MeshBuffers {
     /// The buffer of an attribute that was prepared.
     pub(crate) fn attribute(&self, name: &str) -> Option<&wgpu::Buffer> {
         self.attributes.get(name)
-    }
-
-    /// Where the mesh's middle lies in world space: what blended objects are sorted by.
-    pub(crate) fn center_in_world(&self, world_from_object: &Mat4) -> Vec3 {
-        world_from_object.transform_point3(self.center)
     }
 }
 

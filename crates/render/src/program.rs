@@ -4,31 +4,12 @@ use std::collections::HashMap;
 
 use halfvector_codegen::reflection::{Binding, Reflection, Resource, TextureSource, VertexInput};
 use halfvector_graph::value::Type;
+use halfvector_scene::{FacePass, Side};
 
 use crate::device::Gpu;
 
 /// Depth target of every pass; 1 is near and 0 is infinitely far.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-
-/// What the rasteriser does with a draw, apart from the shader.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Raster {
-    /// The object's transform mirrors, so that front faces turn the other way round.
-    pub(crate) mirrored: bool,
-    /// Which faces are left out.
-    pub(crate) cull: Option<Side>,
-    /// Blended over what is there, without writing depth.
-    pub(crate) blend: bool,
-}
-
-/// A side of a face.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Side {
-    /// The side that the normal points to.
-    Front,
-    /// The other one.
-    Back,
-}
 
 /// A compiled shader. Materials with the same text share it.
 #[derive(Debug)]
@@ -38,7 +19,7 @@ pub(crate) struct Program {
     pub(crate) groups: Vec<Option<wgpu::BindGroupLayout>>,
     layout: wgpu::PipelineLayout,
     vertex_inputs: Vec<VertexInput>,
-    pipelines: HashMap<Raster, wgpu::RenderPipeline>,
+    pipelines: HashMap<FacePass, wgpu::RenderPipeline>,
     target: wgpu::TextureFormat,
 }
 
@@ -67,20 +48,20 @@ impl Program {
         Program { module, groups, layout, vertex_inputs, pipelines: HashMap::new(), target }
     }
 
-    /// Makes the pipeline for a way of rasterising, once.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, raster: Raster) {
-        if !self.pipelines.contains_key(&raster) {
-            let pipeline = self.make(gpu, raster);
-            self.pipelines.insert(raster, pipeline);
+    /// Makes the pipeline for a way of drawing, once.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, pass: FacePass) {
+        if !self.pipelines.contains_key(&pass) {
+            let pipeline = self.make(gpu, pass);
+            self.pipelines.insert(pass, pipeline);
         }
     }
 
-    /// The pipeline for a way of rasterising that was prepared.
-    pub(crate) fn pipeline(&self, raster: Raster) -> Option<&wgpu::RenderPipeline> {
-        self.pipelines.get(&raster)
+    /// The pipeline for a way of drawing that was prepared.
+    pub(crate) fn pipeline(&self, pass: FacePass) -> Option<&wgpu::RenderPipeline> {
+        self.pipelines.get(&pass)
     }
 
-    fn make(&self, gpu: &Gpu, raster: Raster) -> wgpu::RenderPipeline {
+    fn make(&self, gpu: &Gpu, pass: FacePass) -> wgpu::RenderPipeline {
         let attributes: Vec<_> = self
             .vertex_inputs
             .iter()
@@ -110,14 +91,14 @@ impl Program {
                 buffers: &buffers,
             },
             primitive: wgpu::PrimitiveState {
-                front_face: if raster.mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
-                cull_mode: raster.cull.map(|side| match side {
+                front_face: if pass.mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+                cull_mode: pass.cull.map(|side| match side {
                     Side::Front => wgpu::Face::Front,
                     Side::Back => wgpu::Face::Back,
                 }),
                 ..Default::default()
             },
-            depth_stencil: Some(depth_state(!raster.blend, wgpu::CompareFunction::Greater)),
+            depth_stencil: Some(depth_state(!pass.blend, wgpu::CompareFunction::Greater)),
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
                 module: &self.module,
@@ -125,7 +106,7 @@ impl Program {
                 compilation_options: Default::default(),
                 targets: &[Some(wgpu::ColorTargetState {
                     format: self.target,
-                    blend: raster.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                    blend: pass.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
                     write_mask: wgpu::ColorWrites::ALL,
                 })],
             }),

@@ -2,22 +2,20 @@
 
 use halfvector_codegen::Fold;
 use halfvector_codegen::reflection::SamplerSource;
+use halfvector_codegen::uniforms::FrameValues;
 use halfvector_graph::document::AlphaMode;
 use halfvector_graph::needs::ShaderOutput;
 use halfvector_ibl::{BakeOptions, BakedEnvironment, FilterJob, LoadedEnvironment, bake_filtered_by};
 use halfvector_scene::light::lights_by_kind;
-use halfvector_scene::{Background, Scene};
+use halfvector_scene::{Background, Picture, Scene, View, tiles};
 
 use crate::background::Sky;
 use crate::bake::Filter;
 use crate::device::Gpu;
 use crate::draws::{EnvironmentTextures, prepare};
 use crate::error::RenderError;
-use crate::picture::{Picture, tiles};
 use crate::target::{TILE_EDGE, Target};
 use crate::texture;
-use crate::uniforms::Frame;
-use crate::view::View;
 
 /// Draws scenes on one GPU.
 #[derive(Debug)]
@@ -115,15 +113,15 @@ impl Renderer {
         let near = scene.camera.near(scene.bounds());
         let view = View::new(&scene.camera, near, width as f32 / height as f32);
         let (sin, cos) = scene.environment_rotation.to_radians().sin_cos();
-        let lights = lights_by_kind(&scene.lights);
-        let frame = Frame {
-            clip_from_world: glam::Mat4::IDENTITY,
-            camera_position: view.position,
+        let mut frame = FrameValues {
+            clip_from_world: glam::Mat4::IDENTITY.to_cols_array(),
+            camera_position: view.position.to_array(),
+            time: 0.0,
             exposure: scene.exposure.factor(),
             environment_rotation: [cos, sin],
             environment_levels: environment.map_or(0, |baked| baked.radiance.len() as u32),
             irradiance_sh: environment.map_or([[0.0; 3]; 9], |baked| baked.irradiance_sh),
-            lights: &lights,
+            lights: lights_by_kind(&scene.lights).numbers(),
         };
         let blends = scene.materials.iter().any(|material| material.document.surface.alpha_mode == AlphaMode::Blend);
         let format = gpu.radiance_format(blends)?;
@@ -151,7 +149,7 @@ impl Renderer {
         let mut picture = Picture::clear(width, height);
         for (number, &tile) in tiles.iter().enumerate() {
             let samples = gpu.guarded("drawing", || {
-                let frame = Frame { clip_from_world: view.clip_from_world(width, height, tile), ..frame };
+                frame.clip_from_world = view.clip_from_world(width, height, tile).to_cols_array();
                 draws.set_frame(gpu, &frame)?;
                 if let Some(sky) = &sky {
                     sky.set_tile(gpu, &view, width, height, tile);

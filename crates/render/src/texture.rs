@@ -6,7 +6,8 @@ use half::f16;
 use halfvector_codegen::reflection::SamplerSource;
 use halfvector_graph::value::{ColorSpace, Filter, Wrap};
 use halfvector_ibl::{Cube, DfgTable};
-use halfvector_maps::{Image, MapKind, Texels};
+use halfvector_maps::{Image, Texels};
+use halfvector_scene::texture_levels;
 
 use crate::device::Gpu;
 use crate::error::RenderError;
@@ -32,24 +33,15 @@ pub(crate) fn image(
             adapter: gpu.name.clone(),
         });
     }
-    let coded_in_hardware = matches!(image.texels(), Texels::U8(_));
-    let (base, space) = if coded_in_hardware || color_space == ColorSpace::Linear {
-        (Cow::Borrowed(image), color_space)
-    } else {
-        (Cow::Owned(decoded(image)), ColorSpace::Linear)
-    };
-    // Colours are weighted by their coverage; whether other data are normals is not known here, and the mean of vectors
-    // that the shader makes unit serves them too.
-    let kind = if color_space == ColorSpace::Srgb { MapKind::Color } else { MapKind::Data };
-    let smaller = halfvector_maps::smaller_levels(&base, maps_color_space(space), kind);
-    let format = match (image.texels(), space) {
+    let levels = texture_levels(image, color_space);
+    let format = match (image.texels(), levels.color_space) {
         (Texels::U8(_), ColorSpace::Srgb) => wgpu::TextureFormat::Rgba8UnormSrgb,
         (Texels::U8(_), ColorSpace::Linear) => wgpu::TextureFormat::Rgba8Unorm,
         _ if gpu.filters_f32() => wgpu::TextureFormat::Rgba32Float,
         _ => wgpu::TextureFormat::Rgba16Float,
     };
-    let texture = new_texture(gpu, format, [width, height, 1], 1 + smaller.len() as u32);
-    for (level, image) in std::iter::once(base.as_ref()).chain(&smaller).enumerate() {
+    let texture = new_texture(gpu, format, [width, height, 1], 1 + levels.smaller.len() as u32);
+    for (level, image) in levels.all().enumerate() {
         let bytes = texel_bytes(image, format);
         write(gpu, &texture, level as u32, [image.width(), image.height(), 1], &bytes);
     }
@@ -110,28 +102,6 @@ fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
         Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
         Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
     }
-}
-
-fn maps_color_space(space: ColorSpace) -> halfvector_maps::ColorSpace {
-    match space {
-        ColorSpace::Srgb => halfvector_maps::ColorSpace::Srgb,
-        ColorSpace::Linear => halfvector_maps::ColorSpace::Linear,
-    }
-}
-
-/// The sRGB-decoded picture in floats: no hardware decodes sRGB from other than 8 bits. Alpha is linear as it is.
-fn decoded(image: &Image) -> Image {
-    let linear = |[r, g, b, a]: [f32; 4]| {
-        let [r, g, b] = halfvector_maps::color::linear_from_srgb([r, g, b]);
-        [r, g, b, a]
-    };
-    let texels = match image.texels() {
-        Texels::U8(texels) => texels.iter().map(|&texel| linear(texel.map(|c| f32::from(c) / 255.0))).collect(),
-        Texels::U16(texels) => texels.iter().map(|&texel| linear(texel.map(|c| f32::from(c) / 65535.0))).collect(),
-        Texels::F32(texels) => texels.iter().map(|&texel| linear(texel)).collect(),
-    };
-    let same = || image.clone();
-    Image::new(image.width(), image.height(), image.channels(), Texels::F32(texels)).unwrap_or_else(|_| same())
 }
 
 fn texel_bytes(image: &Image, format: wgpu::TextureFormat) -> Cow<'_, [u8]> {

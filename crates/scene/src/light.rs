@@ -118,6 +118,19 @@ pub struct LightsByKind {
     pub spot: Vec<SpotLight<f32>>,
 }
 
+impl LightsByKind {
+    /// The numbers of the directional, the point and the spot lights, in the order of the members of their WGSL structs.
+    pub fn numbers(&self) -> [Vec<f32>; 3] {
+        let directional = self.directional.iter().flat_map(|light| [light.direction, light.illuminance]);
+        let point = self.point.iter().flat_map(|light| [light.position, light.intensity]);
+        let spot = self.spot.iter().flat_map(|light| {
+            let vectors = [light.position, light.intensity, light.direction].into_iter().flatten();
+            vectors.chain(light.cos_scale_offset).collect::<Vec<f32>>()
+        });
+        [directional.flatten().collect(), point.flatten().collect(), spot.collect()]
+    }
+}
+
 /// Sorts lights by kind, keeping the order within a kind.
 pub fn lights_by_kind(lights: &[Light]) -> LightsByKind {
     let mut sorted = LightsByKind::default();

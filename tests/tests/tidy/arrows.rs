@@ -13,10 +13,14 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("crates/graph", &["shaders"]),
     ("crates/codegen", &["graph", "interp", "shaders"]),
     ("crates/scene", &["graph", "maps", "ibl"]),
+    ("crates/raster", &["graph", "codegen", "interp", "scene", "ibl", "maps", "shaders"]),
+    ("crates/reference", &["brdf", "maps", "ibl", "graph", "scene", "codegen", "interp", "raster"]),
     ("crates/render", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
-    ("crates/reference", &["brdf", "maps", "ibl", "graph", "scene", "codegen", "interp"]),
     ("crates/report", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),
-    ("crates/cli", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "reference", "report", "shaders"]),
+    (
+        "crates/cli",
+        &["brdf", "maps", "ibl", "graph", "codegen", "scene", "raster", "reference", "render", "report", "shaders"],
+    ),
 ];
 
 /// Packages of others that only some of ours may name.

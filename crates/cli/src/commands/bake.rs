@@ -8,8 +8,8 @@ use halfvector_ibl::{
     BakeOptions, BakedEnvironment, Cube, LevelMap, LoadedEnvironment, MAX_SIZE, Quality, Source, StoredLevels,
     StoredLobe, save,
 };
-use halfvector_render::{Picture, Renderer};
-use halfvector_scene::EnvironmentSource;
+use halfvector_render::Renderer;
+use halfvector_scene::{EnvironmentSource, Picture};
 
 use crate::environment::{bake_with_bar, ggx_roughness, load};
 use crate::failure::Failure;

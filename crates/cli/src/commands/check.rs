@@ -8,7 +8,8 @@ use halfvector_graph::document::Document;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput};
-use halfvector_scene::{ImageStore, SceneMaterial};
+use halfvector_reference::{Finding, Stability};
+use halfvector_scene::{ImageStore, Scene, SceneMaterial};
 use serde_json::json;
 
 use crate::failure::{FOUND, Failure, WRONG_INPUT};
@@ -19,12 +20,17 @@ use crate::output::{note, print, print_json};
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Example:
   halfvector check examples/*.material.json --format json
+  halfvector check --stability examples/unstable/cancellation.material.json
 
-Exit code 3 when there is an error, 1 when a file cannot be read, 0 when there are only warnings or nothing.")]
+Exit code 3 when there is an error or, with --stability, something unstable, 1 when a file cannot be read, 0 when there are only warnings or nothing.")]
 pub(crate) struct CheckArgs {
     /// Materials (*.material.json) or scenes (*.scene.json), whose materials are checked
     #[arg(value_name = "DOC", required = true)]
     documents: Vec<PathBuf>,
+    /// Also runs each node in f32 and in f64 over the points and parameters that it may meet, and lists those that f32 gets
+    /// wrong; what jumps (floor, checker) is listed apart
+    #[arg(long)]
+    stability: bool,
     /// How problems are written
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -45,15 +51,31 @@ struct Found {
     problem: Problem,
 }
 
+/// What --stability found in a file.
+struct Judged {
+    file: PathBuf,
+    stability: Stability,
+}
+
 /// Runs the command.
 pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let mut found = Vec::new();
+    let mut judged = Vec::new();
     let mut unreadable = false;
     for path in &args.documents {
         match materials(path) {
             Ok(materials) => {
-                let problems = materials.iter().flat_map(problems);
-                found.extend(problems.map(|problem| Found { file: path.clone(), problem }));
+                for material in &materials {
+                    let mut problems = problems(material);
+                    let sound = problems.iter().all(|problem| problem.severity != Severity::Error);
+                    if args.stability && sound {
+                        match stability(material) {
+                            Ok(stability) => judged.push(Judged { file: path.clone(), stability }),
+                            Err(message) => problems.push(of_document(message)),
+                        }
+                    }
+                    found.extend(problems.into_iter().map(|problem| Found { file: path.clone(), problem }));
+                }
             }
             Err(failure) => {
                 unreadable = true;
@@ -66,14 +88,33 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
         }
     }
     match args.format {
-        Format::Text if !unreadable && found.is_empty() => print("no problems")?,
         Format::Text => {
-            let lines: Vec<_> = found.iter().map(|f| format!("{}: {}", f.file.display(), f.problem)).collect();
+            let mut lines: Vec<_> = found.iter().map(|f| format!("{}: {}", f.file.display(), f.problem)).collect();
+            for Judged { file, stability } in &judged {
+                lines.extend(stability.unstable.iter().map(|f| finding_line(file, "unstable", f)));
+                lines.extend(stability.edges.iter().map(|f| finding_line(file, "edge", f)));
+            }
+            if !unreadable && lines.is_empty() {
+                lines.push("no problems".to_owned());
+            }
             print(&lines.join("\n"))?;
         }
-        Format::Json => print_json(&json!({ "problems": found.iter().map(as_json).collect::<Vec<_>>() }))?,
+        Format::Json => {
+            let mut result = json!({ "problems": found.iter().map(as_json).collect::<Vec<_>>() });
+            if args.stability {
+                let all = |of: fn(&Stability) -> &Vec<Finding>| -> Vec<serde_json::Value> {
+                    let each =
+                        |j: &Judged| of(&j.stability).iter().map(|f| finding_json(&j.file, f)).collect::<Vec<_>>();
+                    judged.iter().flat_map(each).collect()
+                };
+                result["unstable"] = all(|stability| &stability.unstable).into();
+                result["edges"] = all(|stability| &stability.edges).into();
+            }
+            print_json(&result)?;
+        }
     }
-    let has_error = found.iter().any(|f| f.problem.severity == Severity::Error);
+    let has_error = found.iter().any(|f| f.problem.severity == Severity::Error)
+        || judged.iter().any(|j| !j.stability.unstable.is_empty());
     Ok(match (unreadable, has_error) {
         (true, _) => WRONG_INPUT,
         (false, true) => FOUND,
@@ -91,6 +132,51 @@ fn as_json(found: &Found) -> serde_json::Value {
         "socket": socket,
         "message": message,
     })
+}
+
+/// One row of the table: file, kind, node and output, both results, where.
+fn finding_line(file: &Path, kind: &str, finding: &Finding) -> String {
+    let Finding { node, label, output, single, exact, input, not_finite, underflows, beyond_f16 } = finding;
+    let place: Vec<String> = input.iter().map(|(name, x)| format!("{name} = {x}")).collect();
+    let mut line = format!(
+        "{}: {kind}: `{label}` ({node}.{output}): f32 gives {single}, exact is {exact}, {:.3e} apart, at {}",
+        file.display(),
+        finding.error(),
+        if place.is_empty() { "its constants".to_owned() } else { place.join(", ") }
+    );
+    for (count, what) in
+        [(not_finite, "infinite or no number"), (underflows, "below f32's range"), (beyond_f16, "beyond f16's range")]
+    {
+        if *count > 0 {
+            line += &format!("; {what} at {count} points");
+        }
+    }
+    line
+}
+
+fn finding_json(file: &Path, finding: &Finding) -> serde_json::Value {
+    let Finding { node, label, output, single, exact, input, not_finite, underflows, beyond_f16 } = finding;
+    // JSON has no infinity and no NaN: null.
+    json!({
+        "file": file.display().to_string(),
+        "node": node,
+        "node_label": label,
+        "output": output,
+        "f32": single,
+        "f64": exact,
+        "error": finding.error(),
+        "input": input.iter().map(|(name, x)| (name.clone(), json!(x))).collect::<serde_json::Map<_, _>>(),
+        "not_finite": not_finite,
+        "underflows": underflows,
+        "beyond_f16": beyond_f16,
+    })
+}
+
+/// Runs a material's nodes in both precisions.
+fn stability(material: &SceneMaterial) -> Result<Stability, String> {
+    let mut scene = Scene { materials: vec![material.clone()], ..Scene::default() };
+    scene.load_images().map_err(|error| error.to_string())?;
+    halfvector_reference::stability(&scene, 0).map_err(|error| error.to_string())
 }
 
 /// The materials of a file.

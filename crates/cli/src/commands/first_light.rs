@@ -7,6 +7,7 @@ use halfvector_codegen::target::{export, target};
 use halfvector_graph::library::Library;
 use halfvector_scene::{BuiltinMesh, MeshSource, Scene};
 
+use crate::backend::Runner;
 use crate::commands::{export::plain_needs, render::draw};
 use crate::failure::Failure;
 use crate::output::{note, write_file};
@@ -34,6 +35,12 @@ pub(crate) fn run() -> Result<u8, Failure> {
     }
     let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
     let scene = Scene::from_material(document, Path::new(""), &sphere).map_err(|error| broken(error.to_string()))?;
-    draw(&scene, [512, 512], 4, &PictureFile { path: folder.join("example.png"), format: PictureFormat::Png })?;
+    draw(
+        &scene,
+        [512, 512],
+        4,
+        Runner::Auto,
+        &PictureFile { path: folder.join("example.png"), format: PictureFormat::Png },
+    )?;
     Ok(0)
 }

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::ToneMap;
-use halfvector_render::{RenderOptions, Renderer};
 use halfvector_scene::{Background, EnvironmentSource, Exposure, Light, MeshSource, Scene};
 
+use crate::backend::{Backend, Painter, Runner, parse_backend};
 use crate::environment::{bake, load};
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{check_place, note, progress};
+use crate::output::{check_place, note};
 use crate::picture_file::{Display, PictureFile, PictureFormat, parse_picture_file, write};
 use crate::reference::{self, ReferenceOptions};
 use crate::set_value::{Assignment, numbers, parse_assignment, set};
@@ -64,7 +64,8 @@ pub(crate) struct RenderArgs {
     set: Vec<Assignment>,
     #[command(flatten)]
     methods: super::methods::MethodChoice,
-    /// Who draws: auto, gpu, or reference (Monte Carlo in f64, with shadows: slow and true)
+    /// Who draws: gpu (a software GPU where there is no other), cpu, auto: gpu, else cpu; or reference (Monte Carlo in f64,
+    /// with shadows: slow and true)
     #[arg(long, value_name = "NAME", default_value = "auto", value_parser = parse_backend)]
     backend: Backend,
     /// Of --backend reference: another seed is another noise, the same one the same picture
@@ -73,14 +74,6 @@ pub(crate) struct RenderArgs {
     /// Of --backend reference: how often light may go from surface to surface
     #[arg(long, value_name = "N", default_value_t = 0)]
     bounces: u32,
-}
-
-/// Who draws. Auto and gpu mean the same: the best GPU, a software one included.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Backend {
-    Auto,
-    Gpu,
-    Reference,
 }
 
 /// Runs the command.
@@ -100,11 +93,14 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     for text in &scene.notes {
         note(format_args!("note: {text}"));
     }
-    if args.backend == Backend::Reference {
-        let RenderArgs { size, samples, seed, bounces, .. } = *args;
-        reference::draw(&scene, ReferenceOptions { size, samples, seed, bounces }, &args.output)?;
-        return Ok(0);
-    }
+    let runner = match args.backend {
+        Backend::Shader(runner) => runner,
+        Backend::Reference => {
+            let RenderArgs { size, samples, seed, bounces, .. } = *args;
+            reference::draw(&scene, ReferenceOptions { size, samples, seed, bounces }, &args.output)?;
+            return Ok(0);
+        }
+    };
     if args.seed != 0 || args.bounces != 0 {
         note("note: --seed and --bounces do nothing here: they are for --backend reference");
     }
@@ -116,31 +112,30 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
             args.samples
         ));
     }
-    draw(&scene, args.size, side, &args.output)?;
+    draw(&scene, args.size, side, runner, &args.output)?;
     Ok(0)
 }
 
 /// Draws a scene to a file.
-pub(crate) fn draw(scene: &Scene, size: [u32; 2], side: u32, output: &PictureFile) -> Result<(), Failure> {
-    let failed =
-        |error: halfvector_render::RenderError| Failure::input("the picture could not be drawn").because(error);
+pub(crate) fn draw(
+    scene: &Scene,
+    size: [u32; 2],
+    side: u32,
+    runner: Runner,
+    output: &PictureFile,
+) -> Result<(), Failure> {
     let loaded = load(&scene.environment)?;
-    let renderer = Renderer::new().map_err(failed)?;
+    let painter = Painter::open(runner)?;
     let environment = loaded.map(|loaded| bake(scene, &loaded));
-    let [width, height] = size;
-    let options = RenderOptions { width, height, samples_per_side: side, ..RenderOptions::default() };
-    let bar = progress("drawing");
-    let picture = renderer
-        .render(scene, environment.as_ref(), &options, |done| bar.set_position((done * 1000.0) as u64))
-        .map_err(failed)?;
-    bar.finish_and_clear();
+    let picture = painter.draw(scene, environment.as_ref(), size, side)?;
     let display = if scene.methods.is("encode", "report") {
         Display::AsIs
     } else {
         Display::ToneMapped { exposure: scene.exposure.factor(), tone_map: scene.tone_map }
     };
     write(output, &picture, display)?;
-    note(format_args!("{}: {width} x {height}, drawn by {}", output.path.display(), renderer.adapter()));
+    let [width, height] = size;
+    note(format_args!("{}: {width} x {height}, drawn by {}", output.path.display(), painter.name()));
     Ok(())
 }
 
@@ -256,16 +251,6 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
         return Err(format!("that is more than {MAX_PIXELS} pixels; choose a smaller size"));
     }
     Ok([width, height])
-}
-
-fn parse_backend(text: &str) -> Result<Backend, String> {
-    match text {
-        "auto" => Ok(Backend::Auto),
-        "gpu" => Ok(Backend::Gpu),
-        "reference" => Ok(Backend::Reference),
-        "cpu" => Err("the backend `cpu` does not exist yet; auto, gpu and reference do".to_owned()),
-        _ => Err("the backends are auto, gpu and reference".to_owned()),
-    }
 }
 
 fn light_help() -> String {

@@ -7,6 +7,7 @@ mod furnace;
 mod ibl_tables;
 mod mitsuba;
 mod picture;
+mod stability;
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! A drawn picture, and how samples become its pixels. No GPU here.
+//! A drawn picture, and how samples become its pixels: the same for every renderer. Nothing is drawn here.
 
 /// A picture of linear radiance, Rec. 709. Row 0 is the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,13 +13,13 @@ pub struct Picture {
 
 impl Picture {
     /// A picture of nothing: radiance 0, alpha 0.
-    pub(crate) fn clear(width: u32, height: u32) -> Picture {
+    pub fn clear(width: u32, height: u32) -> Picture {
         Picture { width, height, pixels: vec![[0.0; 4]; width as usize * height as usize] }
     }
 
     /// Writes a tile of samples into its pixels: each pixel is the plain mean of its `side` x `side` samples.
     /// `samples` has `tile.width * side` samples a row.
-    pub(crate) fn resolve(&mut self, tile: Tile, side: u32, samples: &[[f32; 4]]) {
+    pub fn resolve(&mut self, tile: Tile, side: u32, samples: &[[f32; 4]]) {
         let row = tile.width as usize * side as usize;
         let scale = 1.0 / f64::from(side * side);
         for y in 0..tile.height as usize {
@@ -38,23 +38,31 @@ impl Picture {
             }
         }
     }
+
+    /// Copies a picture of a tile's size to the tile's place.
+    pub fn put(&mut self, tile: Tile, part: &Picture) {
+        for (y, row) in part.pixels.chunks_exact(tile.width as usize).enumerate() {
+            let start = (tile.y as usize + y) * self.width as usize + tile.x as usize;
+            self.pixels[start..start + row.len()].copy_from_slice(row);
+        }
+    }
 }
 
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Tile {
+pub struct Tile {
     /// First column.
-    pub(crate) x: u32,
+    pub x: u32,
     /// First row.
-    pub(crate) y: u32,
+    pub y: u32,
     /// Columns.
-    pub(crate) width: u32,
+    pub width: u32,
     /// Rows.
-    pub(crate) height: u32,
+    pub height: u32,
 }
 
 /// Cuts a picture into tiles of at most `edge` pixels a side, row by row.
-pub(crate) fn tiles(width: u32, height: u32, edge: u32) -> Vec<Tile> {
+pub fn tiles(width: u32, height: u32, edge: u32) -> Vec<Tile> {
     let edge = edge.max(1);
     let starts = |length: u32| (0..length).step_by(edge as usize);
     starts(height)
@@ -82,6 +90,16 @@ mod tests {
             }
             assert!(seen.iter().all(|&count| count == 1), "{width} x {height} by {edge}");
         }
+    }
+
+    #[test]
+    fn a_part_goes_to_its_place() {
+        let mut picture = Picture::clear(3, 3);
+        let mut part = Picture::clear(2, 1);
+        part.pixels[1] = [1.0; 4];
+        picture.put(Tile { x: 1, y: 2, width: 2, height: 1 }, &part);
+        assert_eq!(picture.pixels.iter().position(|pixel| pixel[0] == 1.0), Some(8));
+        assert_eq!(picture.pixels.iter().filter(|pixel| pixel[0] == 1.0).count(), 1);
     }
 
     #[test]

@@ -1,18 +1,19 @@
-//! Where a camera looks, as matrices: the projection of a tile, and the directions behind it. No GPU here.
+//! Where a camera looks, as matrices: the projection of a tile, and the directions behind it.
+//!
+//! Depth is 1 at the near plane and 0 at infinity; clip space is WebGPU's, y up. Nothing is drawn here.
 
 use glam::{Mat4, Vec3, Vec4};
 
-use halfvector_scene::Camera;
-
+use crate::camera::Camera;
 use crate::picture::Tile;
 
 /// A camera with a picture's proportions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct View {
+pub struct View {
     /// Where the camera is.
-    pub(crate) position: Vec3,
+    pub position: Vec3,
     /// Where it looks: unit.
-    pub(crate) forward: Vec3,
+    pub forward: Vec3,
     /// Unit, to the right of the picture.
     right: Vec3,
     /// Unit, to the top of the picture.
@@ -25,7 +26,7 @@ pub(crate) struct View {
 impl View {
     /// What a camera sees in a picture of this aspect ratio (width / height), from the distance `near` on. Degenerate
     /// cameras (nothing to look at, `up` along the view) fall back on axes.
-    pub(crate) fn new(camera: &Camera, near: f32, aspect: f32) -> View {
+    pub fn new(camera: &Camera, near: f32, aspect: f32) -> View {
         let forward = (camera.target - camera.position).try_normalize().unwrap_or(Vec3::NEG_Z);
         let right = forward
             .cross(camera.up)
@@ -45,7 +46,7 @@ impl View {
 
     /// Clip from world for a tile of a picture, with depth 1 at the near plane and 0 at infinity. The tile's rectangle
     /// fills the clip square: x and y of the whole picture's clip space are stretched and shifted.
-    pub(crate) fn clip_from_world(&self, width: u32, height: u32, tile: Tile) -> Mat4 {
+    pub fn clip_from_world(&self, width: u32, height: u32, tile: Tile) -> Mat4 {
         let view_from_world =
             Mat4::from_cols(self.right.extend(0.0), self.up.extend(0.0), (-self.forward).extend(0.0), Vec4::W)
                 .transpose()
@@ -69,11 +70,29 @@ impl View {
 
     /// (right, up, forward) so that forward + x right + y up is the world direction, not unit, through clip position
     /// (x, y) of a tile.
-    pub(crate) fn tile_directions(&self, width: u32, height: u32, tile: Tile) -> [Vec3; 3] {
+    pub fn tile_directions(&self, width: u32, height: u32, tile: Tile) -> [Vec3; 3] {
         let [scale_x, offset_x, scale_y, offset_y] = tile_crop(width, height, tile);
         let [right, up] = [self.right * self.half[0], self.up * self.half[1]];
         let forward = self.forward - right * (offset_x / scale_x) - up * (offset_y / scale_y);
         [right / scale_x, up / scale_y, forward]
+    }
+
+    /// The numbers of the uniform struct `Background` of `entry/background.wgsl` for a tile, padding among them: right, up
+    /// and forward on 16 bytes each, (cos, sin) of the environment's rotation, and 1 where the picture holds display values
+    /// by the report's gamma instead of radiance.
+    pub fn background_numbers(
+        &self,
+        width: u32,
+        height: u32,
+        tile: Tile,
+        environment_rotation: [f32; 2],
+        gamma_coded: bool,
+    ) -> [f32; 16] {
+        let [right, up, forward] = self.tile_directions(width, height, tile);
+        let [cos, sin] = environment_rotation;
+        let coded = f32::from(gamma_coded);
+        let (r, u, f) = (right, up, forward);
+        [r.x, r.y, r.z, 0.0, u.x, u.y, u.z, 0.0, f.x, f.y, f.z, 0.0, cos, sin, coded, 0.0]
     }
 }
 

@@ -1,0 +1,164 @@
+//! The CPU's picture against the GPU's, for every example: the same shader, so the same colours but for rounding, and the
+//! same rules of coverage, so the same silhouettes.
+//!
+//! Differences are of display values, 0 to 1, after the scene's exposure and tone map and the sRGB curve.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+use halfvector_codegen::Fold;
+use halfvector_ibl::{BakeOptions, BakedEnvironment, bake};
+use halfvector_interp::Float;
+use halfvector_maps::color::srgb_from_linear;
+use halfvector_raster::RasterOptions;
+use halfvector_render::RenderOptions;
+use halfvector_scene::tone_map::tone_mapped;
+use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, MeshSource, Picture, Scene, load_scene};
+
+use crate::support::{renderer, root};
+
+/// Pixels on a side.
+const SIZE: u32 = 48;
+
+/// Samples along a side of a pixel.
+const SIDE: u32 = 4;
+
+/// Examples whose normals or heights come from textures and make more of how the driver filters: the share of pixels that
+/// may be more than a code apart.
+const TEXTURED: [(&str, f64); 2] = [("cobbles-parallax.material.json", 0.06), ("painted-panel.material.json", 0.012)];
+
+/// One step of an 8-bit display.
+const CODE: f32 = 1.0 / 255.0;
+
+/// The examples with names that end so, in order.
+fn examples(ending: &str) -> Vec<PathBuf> {
+    let folder = std::fs::read_dir(root().join("examples")).expect("examples/");
+    let mut files: Vec<PathBuf> = folder.map(|entry| entry.expect("an entry").path()).collect();
+    files.retain(|path| path.to_string_lossy().ends_with(ending));
+    // The helmet's model is not in the project.
+    let models = root().join("../shared/data/models").exists();
+    files.retain(|path| models || !path.to_string_lossy().contains("flight-helmet"));
+    files.sort();
+    files
+}
+
+fn material(path: &Path) -> Scene {
+    let document = halfvector_graph::file::load(path).unwrap_or_else(|e| panic!("{e}"));
+    let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
+    Scene::from_material(document, &root().join("examples"), &sphere).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn baked(source: &EnvironmentSource) -> Option<BakedEnvironment> {
+    let loaded = source.load().unwrap_or_else(|e| panic!("{e}"))?;
+    Some(bake(&loaded, &BakeOptions { size: 64, irradiance_size: 16, ..BakeOptions::default() }))
+}
+
+fn on_cpu<F: Float>(scene: &Scene, environment: Option<&BakedEnvironment>) -> Picture {
+    let options = RasterOptions { width: SIZE, height: SIZE, samples_per_side: SIDE, fold: Fold::Export };
+    halfvector_raster::draw::<F>(scene, environment, &options, |_| {}).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn display(scene: &Scene, picture: &Picture) -> Vec<[f32; 3]> {
+    let factor = scene.exposure.factor();
+    let coded = scene.methods.is("encode", "report");
+    let of = |&[r, g, b, _]: &[f32; 4]| {
+        if coded {
+            return [r, g, b].map(|c| c.clamp(0.0, 1.0));
+        }
+        srgb_from_linear(tone_mapped(scene.tone_map, [r, g, b].map(|c| c * factor)).map(|c| c.clamp(0.0, 1.0)))
+    };
+    picture.pixels.iter().map(of).collect()
+}
+
+/// The mean over each pixel's neighbourhood of 3 x 3.
+fn boxed(pixels: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let size = SIZE as usize;
+    let near = |i: usize| i.saturating_sub(1)..(i + 2).min(size);
+    let mean = |at: usize| {
+        let (y, x) = (at / size, at % size);
+        let around: Vec<[f32; 3]> = near(y).flat_map(|y| near(x).map(move |x| pixels[y * size + x])).collect();
+        std::array::from_fn(|c| around.iter().map(|p| p[c]).sum::<f32>() / around.len() as f32)
+    };
+    (0..pixels.len()).map(mean).collect()
+}
+
+fn difference(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+}
+
+/// Share of the fully covered pixels that are more than a code apart, and the largest difference after the box.
+fn compare(scene: &Scene, cpu: &Picture, gpu: &Picture) -> (f64, f32) {
+    let (a, b) = (display(scene, cpu), display(scene, gpu));
+    let covered = cpu.pixels.iter().zip(&gpu.pixels).map(|(a, b)| a[3] == 1.0 && b[3] == 1.0);
+    let inner: Vec<f32> =
+        a.iter().zip(&b).zip(covered).filter(|(_, covered)| *covered).map(|((&a, &b), _)| difference(a, b)).collect();
+    let apart = inner.iter().filter(|&&d| d > CODE).count() as f64 / inner.len().max(1) as f64;
+    let edges = boxed(&a).into_iter().zip(boxed(&b)).map(|(a, b)| difference(a, b)).fold(0.0, f32::max);
+    (apart, edges)
+}
+
+/// What tells llvmpipe to choose mip levels and to filter as the specification says, not by its faster approximations,
+/// whose levels are off by up to a half. Read when the driver is loaded: hence a process of its own. Other drivers ignore it.
+const EXACT_SAMPLING: (&str, &str) = ("GALLIVM_PERF", "no_rho_approx,no_brilinear,no_quad_lod,no_aos_sampling");
+
+#[test]
+fn every_example_looks_the_same_on_the_cpu() {
+    let (variable, value) = EXACT_SAMPLING;
+    if std::env::var(variable).is_err() {
+        let this = std::env::current_exe().expect("this program");
+        let test = "raster::every_example_looks_the_same_on_the_cpu";
+        let status = Command::new(this).args([test, "--exact", "--nocapture"]).env(variable, value).status();
+        assert!(status.expect("the test starts").success(), "see above");
+        return;
+    }
+    let Some(renderer) = renderer() else { return };
+    let studio = baked(&EnvironmentSource::Studio);
+    let mut scenes: Vec<(String, Scene)> = Vec::new();
+    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    for path in examples(".material.json") {
+        scenes.push((name(&path), material(&path)));
+    }
+    for path in examples(".scene.json") {
+        scenes.push((name(&path), load_scene(&path).unwrap_or_else(|e| panic!("{e}"))));
+    }
+    let mut failed = Vec::new();
+    println!("{:<40} {:>10} {:>10} {:>8} {:>8}", "example", "apart", "boxed/255", "gpu s", "cpu s");
+    for (name, mut scene) in scenes {
+        scene.background = Background::None;
+        let own = if scene.environment == EnvironmentSource::Studio { None } else { baked(&scene.environment) };
+        let environment = match scene.environment {
+            EnvironmentSource::Studio => studio.as_ref(),
+            _ => own.as_ref(),
+        };
+        let begin = Instant::now();
+        let options = RenderOptions { width: SIZE, height: SIZE, samples_per_side: SIDE, ..RenderOptions::default() };
+        let gpu = renderer.render(&scene, environment, &options, |_| {}).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let middle = Instant::now();
+        let cpu = on_cpu::<f32>(&scene, environment);
+        let (apart, edges) = compare(&scene, &cpu, &gpu);
+        let times = [(middle - begin).as_secs_f64(), middle.elapsed().as_secs_f64()];
+        println!("{name:<40} {:>9.3}% {:>10.3} {:>8.2} {:>8.2}", apart * 100.0, edges / CODE, times[0], times[1]);
+        let most = TEXTURED.iter().find(|(of, _)| *of == name).map_or(0.001, |(_, most)| *most);
+        if apart > most || edges > 4.0 * CODE {
+            failed.push(name);
+        }
+    }
+    assert!(failed.is_empty(), "{failed:?}");
+}
+
+#[test]
+fn the_same_bytes_at_any_number_of_threads() {
+    let mut scene = material(&root().join("examples/plain-dielectric.material.json"));
+    scene.environment = EnvironmentSource::White;
+    let environment = baked(&scene.environment);
+    let draw = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| on_cpu::<f32>(&scene, environment.as_ref()))
+    };
+    let one = draw(1);
+    assert_eq!(one, draw(3));
+    let exact = on_cpu::<f64>(&scene, environment.as_ref());
+    let far = one.pixels.as_flattened().iter().zip(exact.pixels.as_flattened()).map(|(a, b)| (a - b).abs());
+    assert!(far.fold(0.0, f32::max) < 1e-4, "f32 and f64 draw the same");
+}
