@@ -325,9 +325,30 @@ fn finite_or_zero(c: vec3f) -> vec3f {
 
 /// Checker 2D
 ///
-/// A chess board: 0 where column and row are both even or both odd, 1 elsewhere. Not filtered: fine boards alias.
+/// A chess board: 0 where column and row are both even or both odd, 1 elsewhere. Averaged over the pixel.
 fn node_procedural_checker(uv: vec2f, count: vec2f) -> f32 {
-    let cell = floor(uv * count);
-    let sum = cell.x + cell.y;
-    return sum - 2.0 * floor(0.5 * sum);
+    let p = uv * count;
+    let w = fwidth(p);
+    return odd_share(odd_share(0.0, p.x, w.x), p.y, w.y);
+}
+
+/// The part of a window where the sum of some cells is odd, when one more axis is added to those for which it is `share`.
+fn odd_share(share: f32, x: f32, width: f32) -> f32 {
+    let odd = 1.0 - pulse_wave(0.5 * x, 0.5 * width, 0.5);
+    return share + odd - 2.0 * share * odd;
+}
+
+// ---- nodes/procedural/filter.wgsl
+
+// A window narrower than this part of a period counts as none: differences of integrals have no digits left there.
+const WINDOW_FLOOR: f32 = 1e-3;
+
+/// The mean of a pulse wave over a window around x: 1 in the first `duty` of each unit, 0 in the rest.
+fn pulse_wave(x: f32, width: f32, duty: f32) -> f32 {
+    let part = clamp(duty, 0.0, 1.0);
+    let w = max(width, WINDOW_FLOOR);
+    let start = fract(x - 0.5 * w);
+    let end = start + w;
+    let within = (part * floor(end) + min(fract(end), part) - min(start, part)) / w;
+    return select(within, select(0.0, 1.0, fract(x) < part), width < WINDOW_FLOOR);
 }
