@@ -100,7 +100,7 @@ fn live_numbers_change_no_text() {
                 Value::Image(_) => continue,
             };
             // A neutral weight is the one number that specialises, see `lobe_weights_specialise_live`.
-            const WEIGHTS: [&str; 10] = [
+            const WEIGHTS: [&str; 8] = [
                 "specular",
                 "occlusion",
                 "emission",
@@ -109,8 +109,6 @@ fn live_numbers_change_no_text() {
                 "coat_weight",
                 "sheen_color",
                 "transmission_weight",
-                "anisotropy",
-                "thin_film_weight",
             ];
             if id == "surface" && WEIGHTS.contains(&input.name.as_str()) {
                 continue;
