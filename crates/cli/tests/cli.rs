@@ -249,7 +249,7 @@ fn lists_are_one_json_object() {
     assert!(nodes.stderr.is_empty());
     let methods = folder.run(&["methods", "--format", "json"]).ends(0).json();
     assert!(methods["methods"].as_array().is_some_and(|list| !list.is_empty()));
-    for command in ["nodes", "methods", "report"] {
+    for command in ["nodes", "methods"] {
         assert!(folder.run(&[command]).ends(0).stdout.starts_with("# "));
     }
 }

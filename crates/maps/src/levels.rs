@@ -213,8 +213,8 @@ where
                 let out = &mut outs[level][y * width..][..width];
                 out.chunks_mut(LANES).zip(&rows[level][y % 2]).for_each(|(out, block)| {
                     let mut lanes = [S::default(); LANES];
-                    for i in 0..LANES {
-                        lanes[i] = store(texel(block, i));
+                    for (i, lane) in lanes.iter_mut().enumerate() {
+                        *lane = store(texel(block, i));
                     }
                     out.copy_from_slice(&lanes[..out.len()]);
                 });

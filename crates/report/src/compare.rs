@@ -6,6 +6,9 @@ use std::fmt;
 use crate::timing::median;
 use crate::{Report, Row};
 
+/// A figure of a row, and its name for people.
+type Figure = (&'static str, fn(&Row) -> Option<f64>);
+
 /// An error may differ by this part, for the elementary functions of another system.
 const ERROR_NOISE: f64 = 0.05;
 /// Errors below this are rounding of f64.
@@ -63,8 +66,7 @@ pub fn changes(old: &Report, new: &Report) -> Vec<Change> {
 }
 
 fn slower(pairs: &[(&Row, &Row)]) -> Vec<Change> {
-    let kinds: [(&str, fn(&Row) -> Option<f64>); 2] =
-        [("one call", |row| row.cost_ns), ("an element of a batch", |row| row.cost_batch_ns)];
+    let kinds: [Figure; 2] = [("one call", |row| row.cost_ns), ("an element of a batch", |row| row.cost_batch_ns)];
     let ratio = |cost: fn(&Row) -> Option<f64>, old, new| Some(cost(new)? / cost(old)?).filter(|x| x.is_finite());
     let all = pairs.iter().flat_map(|&(old, new)| kinds.iter().filter_map(move |(_, cost)| ratio(*cost, old, new)));
     let machine = median(all.collect());
@@ -93,8 +95,7 @@ fn slower(pairs: &[(&Row, &Row)]) -> Vec<Change> {
 
 fn less_accurate(old: &Row, new: &Row) -> Vec<Change> {
     let mut changes = Vec::new();
-    let kinds: [(&str, fn(&Row) -> Option<f64>); 2] =
-        [("rms error", |row| row.error_rms), ("largest error", |row| row.error_max)];
+    let kinds: [Figure; 2] = [("rms error", |row| row.error_rms), ("largest error", |row| row.error_max)];
     for (name, error) in kinds {
         // An infinite error is null in the file: a row that had a finite one has lost it.
         let now = error(new).unwrap_or(f64::INFINITY);

@@ -1,3 +1,5 @@
+//! FLIP of plain colours, whose errors can be told by hand, and of pictures that the authors' program has judged.
+
 use super::*;
 
 fn flat(color: [f64; 3]) -> Vec<[f64; 3]> {
