@@ -102,8 +102,12 @@ pub fn save(path: &Path, document: &Document) -> Result<(), FileError> {
 }
 
 /// Writes a file whole or not at all: into a temporary file of the same folder, which then takes the name. A link is
-/// followed, so that the file it points to is replaced.
+/// followed, so that the file it points to is replaced. What is there and is no file, such as a device or a pipe, keeps its
+/// name and is written to.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    if fs::metadata(path).is_ok_and(|old| !old.is_file()) {
+        return fs::OpenOptions::new().write(true).open(path)?.write_all(bytes);
+    }
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.into());
     let name =
         target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;

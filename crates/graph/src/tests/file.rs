@@ -191,3 +191,15 @@ fn saving_replaces_the_file_in_one_step() -> Result<(), Box<dyn std::error::Erro
     assert!(load(&path).is_err_and(|e| e.to_string().contains("line 2: the bytes are no UTF-8")));
     Ok(())
 }
+
+/// A socket, for a device could be lost: both are no files, and keep their names.
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_keeps_its_name() {
+    use std::os::unix::fs::FileTypeExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("socket");
+    let _socket = std::os::unix::net::UnixListener::bind(&path).expect("a socket");
+    assert!(replace(&path, b"x").is_err());
+    assert!(std::fs::metadata(&path).expect("still there").file_type().is_socket());
+}
