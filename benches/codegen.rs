@@ -51,7 +51,7 @@ fn thirty_nodes() -> Document {
         links.join(",")
     );
     let document = halfvector_graph::file::from_json(&json).expect("a sound document");
-    assert_eq!(document.nodes.len(), 30);
+    assert_eq!(document.graph.nodes.len(), 30);
     document
 }
 

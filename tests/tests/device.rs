@@ -27,7 +27,7 @@ fn glowing(color: [f32; 3]) -> Document {
 fn surface(values: &[(&str, Value)]) -> Document {
     let mut document = Document::with_surface("test");
     for (name, value) in values {
-        document.nodes.get_mut("surface").expect("the surface").values.insert((*name).into(), value.clone());
+        document.graph.nodes.get_mut("surface").expect("the surface").values.insert((*name).into(), value.clone());
     }
     document
 }
@@ -135,9 +135,9 @@ fn images_stand_upright_and_keep_their_values() {
             wrap_v: Default::default(),
             filter: halfvector_graph::value::Filter::Nearest,
         };
-        document.nodes.insert("image".into(), Node::new("textures/image").with("image", Value::Image(image)));
-        document.nodes.get_mut("surface").expect("the surface").values.remove("emission");
-        document.links.push(Link::new(SocketRef::new("image", "color"), SocketRef::new("surface", "emission")));
+        document.graph.nodes.insert("image".into(), Node::new("textures/image").with("image", Value::Image(image)));
+        document.graph.nodes.get_mut("surface").expect("the surface").values.remove("emission");
+        document.graph.links.push(Link::new(SocketRef::new("image", "color"), SocketRef::new("surface", "emission")));
         let mut scene = empty();
         add(&mut scene, rectangle(-1.0, -1.0, 1.0, 1.0), document, glam::Mat4::IDENTITY);
         scene.materials[0].directory = folder.path().into();
@@ -195,7 +195,13 @@ fn a_mirrored_or_turned_surface_is_lit_from_its_front() {
 fn coverage_masks_and_blends() {
     let veil = |mode, opacity| {
         let mut document = glowing([1.0, 0.0, 0.0]);
-        document.nodes.get_mut("surface").expect("the surface").values.insert("opacity".into(), Value::Number(opacity));
+        document
+            .graph
+            .nodes
+            .get_mut("surface")
+            .expect("the surface")
+            .values
+            .insert("opacity".into(), Value::Number(opacity));
         document.surface.alpha_mode = mode;
         document
     };
@@ -266,8 +272,8 @@ fn the_environment_behind_turns_counter_clockwise_seen_from_above() {
 fn sphere() -> (Scene, BakedEnvironment) {
     let mut document =
         surface(&[("base_color", Value::Vec3([0.6, 0.3, 0.1])), ("perceptual_roughness", Value::Number(0.3))]);
-    document.nodes.insert("checker".into(), Node::new("procedural/checker_3d"));
-    document.links.push(Link::new(SocketRef::new("checker", "out"), SocketRef::new("surface", "metallic")));
+    document.graph.nodes.insert("checker".into(), Node::new("procedural/checker_3d"));
+    document.graph.links.push(Link::new(SocketRef::new("checker", "out"), SocketRef::new("surface", "metallic")));
     let mesh = MeshSource::Builtin(BuiltinMesh::Sphere);
     let mut scene = Scene::from_material(document, Path::new(""), &mesh).expect("a scene");
     scene.lights = vec![Light::Point { position: glam::Vec3::new(2.0, 2.0, 3.0), intensity: glam::Vec3::splat(20.0) }];

@@ -62,7 +62,7 @@ fn is_default(term: &str, method: &str) -> bool {
 fn every_method_draws_a_lit_sphere() {
     let Some(renderer) = renderer() else { return };
     let mut document = Document::with_surface("test");
-    let values = &mut document.nodes.get_mut("surface").expect("the surface").values;
+    let values = &mut document.graph.nodes.get_mut("surface").expect("the surface").values;
     values.insert("perceptual_roughness".into(), halfvector_graph::value::Value::Number(0.5));
     let mesh = MeshSource::Builtin(BuiltinMesh::Sphere);
     let mut scene = Scene::from_material(document, Path::new(""), &mesh).expect("a scene");

@@ -20,20 +20,20 @@ const HALF_EXTENT: f32 = 1.25;
 
 /// A source of emission (n + 1) / 2 in place of all that a material does.
 fn show_normals(document: &mut Document) {
-    let (surface, _) = document.nodes.iter().find(|(_, n)| n.node == "surface/surface").expect("a surface");
+    let (surface, _) = document.graph.nodes.iter().find(|(_, n)| n.node == "surface/surface").expect("a surface");
     let surface = surface.clone();
-    let normal = document.incoming(&SocketRef::new(&surface, "normal")).expect("a normal map").clone();
-    document.links.retain(|l| l.to.node != surface || l.to.socket == "normal");
+    let normal = document.graph.incoming(&SocketRef::new(&surface, "normal")).expect("a normal map").clone();
+    document.graph.links.retain(|l| l.to.node != surface || l.to.socket == "normal");
     let half = Node::new("math/multiply_add").with("b", Value::Number(0.5)).with("c", Value::Number(0.5));
-    document.nodes.insert("half".into(), half);
-    document.links.push(Link::new(normal, SocketRef::new("half", "a")));
-    document.links.push(Link::new(SocketRef::new("half", "out"), SocketRef::new(&surface, "emission")));
+    document.graph.nodes.insert("half".into(), half);
+    document.graph.links.push(Link::new(normal, SocketRef::new("half", "a")));
+    document.graph.links.push(Link::new(SocketRef::new("half", "out"), SocketRef::new(&surface, "emission")));
 }
 
 /// Draws the scene's shading normals as seen along -Z, from so far that perspective moves nothing by a tenth of a pixel.
 fn normals(renderer: &Renderer, scene: &mut Scene, size: u32) -> Vec<Option<Vec3>> {
     for material in &mut scene.materials {
-        if !material.document.nodes.contains_key("half") {
+        if !material.document.graph.nodes.contains_key("half") {
             show_normals(&mut material.document);
         }
     }
@@ -267,10 +267,10 @@ fn mirrored_textures_shade_like_their_relief() {
         wrap_v: Default::default(),
         filter: Filter::Linear,
     };
-    document.nodes.insert("image".into(), Node::new("textures/image").with("image", Value::Image(image)));
-    document.nodes.insert("map".into(), Node::new("textures/normal_map"));
-    document.links.push(Link::new(SocketRef::new("image", "color"), SocketRef::new("map", "color")));
-    document.links.push(Link::new(SocketRef::new("map", "out"), SocketRef::new("surface", "normal")));
+    document.graph.nodes.insert("image".into(), Node::new("textures/image").with("image", Value::Image(image)));
+    document.graph.nodes.insert("map".into(), Node::new("textures/normal_map"));
+    document.graph.links.push(Link::new(SocketRef::new("image", "color"), SocketRef::new("map", "color")));
+    document.graph.links.push(Link::new(SocketRef::new("map", "out"), SocketRef::new("surface", "normal")));
 
     let made = [
         flat("upright and mirrored in u", [-1.2, 0.0], |p| (DVec2::new(-p.x, p.y), -DVec3::X, DVec3::Y, DVec3::Z)),

@@ -51,13 +51,13 @@ fn height_image() -> Value {
 }
 
 fn link(document: &mut Document, from: (&str, &str), to: (&str, &str)) {
-    document.links.push(Link::new(SocketRef::new(from.0, from.1), SocketRef::new(to.0, to.1)));
+    document.graph.links.push(Link::new(SocketRef::new(from.0, from.1), SocketRef::new(to.0, to.1)));
 }
 
 /// A white Lambert surface.
 fn plaster() -> Document {
     let mut document = Document::with_surface("plaster");
-    let values = &mut document.nodes.get_mut("surface").expect("the surface").values;
+    let values = &mut document.graph.nodes.get_mut("surface").expect("the surface").values;
     values.insert("base_color".into(), Value::Vec3([1.0; 3]));
     values.insert("specular".into(), Value::Number(0.0));
     document
@@ -153,11 +153,11 @@ fn displaced_squares_shade_like_the_relief() {
     let folder = folder_with_map();
     let depth = 0.05;
     let mut document = plaster();
-    document.nodes.insert("image".into(), Node::new("textures/image").with("image", height_image()));
+    document.graph.nodes.insert("image".into(), Node::new("textures/image").with("image", height_image()));
     // The square is 2 m wide.
     let moved =
         Node::new("textures/height").with("scale", Value::Number(2.0 * depth)).with("level", Value::Number(0.5));
-    document.nodes.insert("moved".into(), moved);
+    document.graph.nodes.insert("moved".into(), moved);
     link(&mut document, ("image", "r"), ("moved", "value"));
     link(&mut document, ("moved", "out"), ("surface", "height"));
     let mut scene = scene(square(256), document, folder.path(), Mat4::IDENTITY);
@@ -177,8 +177,8 @@ fn normals_from_heights_are_the_relief() {
     let depth = 0.05;
     let mut document = plaster();
     let made = Node::new("textures/height_normal").with("image", height_image()).with("depth", Value::Number(depth));
-    document.nodes.insert("made".into(), made);
-    document.nodes.insert("map".into(), Node::new("textures/normal_map"));
+    document.graph.nodes.insert("made".into(), made);
+    document.graph.nodes.insert("map".into(), Node::new("textures/normal_map"));
     link(&mut document, ("made", "out"), ("map", "color"));
     link(&mut document, ("map", "out"), ("surface", "normal"));
     let scene = scene(square(1), document, folder.path(), Mat4::IDENTITY);
@@ -198,10 +198,10 @@ fn neutral_snorm_texels_are_flat_through_blends() {
     let blends = ["", "_rnm", "_whiteout", "_udn", "_linear"].map(|kind| format!("textures/normal_blend{kind}"));
     for between in [None].into_iter().chain(blends.iter().map(Some)) {
         let mut document = plaster();
-        document.nodes.insert("image".into(), Node::new("textures/image").with("image", height_image()));
-        document.nodes.insert("map".into(), Node::new("textures/normal_map"));
+        document.graph.nodes.insert("image".into(), Node::new("textures/image").with("image", height_image()));
+        document.graph.nodes.insert("map".into(), Node::new("textures/normal_map"));
         if let Some(blend) = between {
-            document.nodes.insert("both".into(), Node::new(blend.as_str()));
+            document.graph.nodes.insert("both".into(), Node::new(blend.as_str()));
             link(&mut document, ("image", "color"), ("both", "base"));
             link(&mut document, ("image", "color"), ("both", "detail"));
             link(&mut document, ("both", "out"), ("map", "color"));
@@ -228,8 +228,8 @@ fn the_back_of_a_mapped_sheet_is_its_other_side() {
     let mut document = plaster();
     document.surface.double_sided = true;
     let made = Node::new("textures/height_normal").with("image", height_image()).with("depth", Value::Number(depth));
-    document.nodes.insert("made".into(), made);
-    document.nodes.insert("map".into(), Node::new("textures/normal_map"));
+    document.graph.nodes.insert("made".into(), made);
+    document.graph.nodes.insert("map".into(), Node::new("textures/normal_map"));
     link(&mut document, ("made", "out"), ("map", "color"));
     link(&mut document, ("map", "out"), ("surface", "normal"));
     let turned = Mat4::from_rotation_y(std::f32::consts::PI);
@@ -283,13 +283,13 @@ fn parallax_on_the_gpu_is_the_twin() {
     let folder = folder_with_map();
     let depth = 0.1;
     let mut document = Document::with_surface("uv");
-    let values = &mut document.nodes.get_mut("surface").expect("the surface").values;
+    let values = &mut document.graph.nodes.get_mut("surface").expect("the surface").values;
     values.insert("base_color".into(), Value::Vec3([0.0; 3]));
     values.insert("specular".into(), Value::Number(0.0));
     let parallax = Node::new("textures/parallax").with("image", height_image()).with("depth", Value::Number(depth));
-    document.nodes.insert("parallax".into(), parallax);
-    document.nodes.insert("apart".into(), Node::new("vector/separate2"));
-    document.nodes.insert("together".into(), Node::new("vector/combine3"));
+    document.graph.nodes.insert("parallax".into(), parallax);
+    document.graph.nodes.insert("apart".into(), Node::new("vector/separate2"));
+    document.graph.nodes.insert("together".into(), Node::new("vector/combine3"));
     link(&mut document, ("parallax", "out"), ("apart", "v"));
     link(&mut document, ("apart", "x"), ("together", "x"));
     link(&mut document, ("apart", "y"), ("together", "y"));

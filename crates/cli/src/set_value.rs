@@ -35,6 +35,7 @@ pub(crate) fn set(document: &mut Document, library: &Library, assignment: &Assig
     };
     let value = typed(document, library, &socket, value).map_err(|why| format!("{name}={value}: {why}"))?;
     let node: &mut Node = document
+        .graph
         .nodes
         .get_mut(&socket.node)
         .ok_or_else(|| format!("`{name}` stands for {socket}, which is missing"))?;
@@ -44,7 +45,7 @@ pub(crate) fn set(document: &mut Document, library: &Library, assignment: &Assig
 
 fn typed(document: &Document, library: &Library, socket: &SocketRef, text: &str) -> Result<Value, String> {
     let missing = || format!("it stands for {socket}, which is missing");
-    let node = document.nodes.get(&socket.node).ok_or_else(missing)?;
+    let node = document.graph.nodes.get(&socket.node).ok_or_else(missing)?;
     let definition = library.get(&node.node).ok_or_else(missing)?;
     let input = definition.inputs.iter().find(|input| input.name == socket.socket).ok_or_else(missing)?;
     match input.ty {
@@ -139,11 +140,11 @@ mod tests {
         let mut document = document();
         set_text(&mut document, "base_color=1, 0.5,0.25").expect("a colour");
         set_text(&mut document, "metallic=1").expect("a number");
-        let values = &document.nodes["surface"].values;
+        let values = &document.graph.nodes["surface"].values;
         assert_eq!(values["base_color"], Value::Vec3([1.0, 0.5, 0.25]));
         assert_eq!(values["metallic"], Value::Number(1.0));
         set_text(&mut document, "base_color=0.5").expect("a grey");
-        assert_eq!(document.nodes["surface"].values["base_color"], Value::Vec3([0.5; 3]));
+        assert_eq!(document.graph.nodes["surface"].values["base_color"], Value::Vec3([0.5; 3]));
     }
 
     #[test]

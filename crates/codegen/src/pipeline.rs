@@ -112,7 +112,7 @@ fn no_faults(
         let node = node.map(|node| program.nodes[node].id.clone());
         Problem {
             severity: Severity::Error,
-            node_label: node.as_ref().map(|id| node_label(document, library, id)),
+            node_label: node.as_ref().map(|id| node_label(&document.graph, library, id)),
             node,
             socket: None,
             message:

@@ -15,7 +15,7 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::FORMAT_VERSION;
-use crate::document::{AlphaMode, Document, NodeId};
+use crate::document::{AlphaMode, Document, Graph, NodeId};
 use crate::library::Library;
 use crate::node_def::NodeDef;
 use crate::resolve::{Types, resolve_in};
@@ -72,8 +72,8 @@ impl fmt::Display for Problem {
 
 /// All problems of a document: of the document, of its nodes in order of id, of its links and parameters in their order.
 pub fn check(document: &Document, library: &Library) -> Vec<Problem> {
-    let wiring = Wiring::new(document);
-    let types = resolve_in(document, library, &wiring);
+    let wiring = Wiring::new(&document.graph);
+    let types = resolve_in(&document.graph, library, &wiring);
     let surfaces = surfaces(document, library);
     let mut checker = Checker { document, library, live: HashSet::new(), wiring: &wiring, types, problems: Vec::new() };
     checker.document();
@@ -97,8 +97,8 @@ pub fn surface_node<'d>(document: &'d Document, library: &Library) -> Option<&'d
 }
 
 /// The name that a node has for people: its own label, or its definition's, or its id.
-pub fn node_label(document: &Document, library: &Library, id: &str) -> String {
-    let node = document.nodes.get(id);
+pub fn node_label(graph: &Graph, library: &Library, id: &str) -> String {
+    let node = graph.nodes.get(id);
     let own = node.and_then(|node| node.label.clone());
     own.or_else(|| node.and_then(|node| library.get(&node.node)).map(|def| def.label.clone()))
         .unwrap_or_else(|| id.into())
@@ -106,7 +106,7 @@ pub fn node_label(document: &Document, library: &Library, id: &str) -> String {
 
 fn surfaces<'d>(document: &'d Document, library: &Library) -> Vec<&'d str> {
     let is_surface = |def: &NodeDef| def.outputs.iter().any(|output| output.ty == SocketType::Surface);
-    let known = document.nodes.iter().filter_map(|(id, node)| Some((id.as_str(), library.get(&node.node)?)));
+    let known = document.graph.nodes.iter().filter_map(|(id, node)| Some((id.as_str(), library.get(&node.node)?)));
     known.filter(|(_, def)| is_surface(def)).map(|(id, _)| id).collect()
 }
 
@@ -126,11 +126,11 @@ impl<'a> Checker<'a> {
     }
 
     fn label(&self, id: &str) -> String {
-        node_label(self.document, self.library, id)
+        node_label(&self.document.graph, self.library, id)
     }
 
     fn at(&mut self, severity: Severity, node: &str, socket: Option<&str>, message: impl Into<String>) {
-        let node_label = self.document.nodes.contains_key(node).then(|| self.label(node));
+        let node_label = self.document.graph.nodes.contains_key(node).then(|| self.label(node));
         self.problems.push(Problem {
             severity,
             node: Some(node.into()),
@@ -161,7 +161,7 @@ impl<'a> Checker<'a> {
                 ),
             );
         }
-        for field in document.unknown.keys() {
+        for field in document.unknown.keys().chain(document.graph.unknown.keys()) {
             self.of_document(
                 Severity::Warning,
                 format!("the document's field `{field}` has parts that this program does not know; they are kept when it saves"),
@@ -177,7 +177,7 @@ impl<'a> Checker<'a> {
                 ),
             );
         }
-        for (id, _) in document.layout.iter().filter(|(_, position)| position.iter().any(|x| !x.is_finite())) {
+        for (id, _) in document.graph.layout.iter().filter(|(_, position)| position.iter().any(|x| !x.is_finite())) {
             self.warn(id, None, "its position in the editor is no number; move the node");
         }
     }
@@ -198,7 +198,7 @@ impl<'a> Checker<'a> {
 
     /// Finds the live nodes, and reports what keeps the document from having a surface.
     fn surface(&mut self, surfaces: &[&'a str]) {
-        let all = || self.document.nodes.keys().map(String::as_str).collect();
+        let all = || self.document.graph.nodes.keys().map(String::as_str).collect();
         match surfaces {
             [surface] => match self.wiring.order(&[surface]) {
                 Ok(order) => self.live = order.into_iter().collect(),
@@ -235,7 +235,7 @@ impl<'a> Checker<'a> {
     }
 
     fn opacity(&mut self, surface: &str) {
-        let set = self.document.nodes.get(surface).and_then(|node| node.values.get("opacity"));
+        let set = self.document.graph.nodes.get(surface).and_then(|node| node.values.get("opacity"));
         let is_used = self.wiring.incoming(surface, "opacity").is_some()
             || set.and_then(|value| value.components()).is_some_and(|c| c.iter().any(|x| *x != 1.0));
         if is_used && self.document.surface.alpha_mode == AlphaMode::Opaque {

@@ -1,11 +1,15 @@
 //! The material document as plain data. Meaning only: what a document may be is in `check`, how it changes in `edit`,
-//! how it is written in `file`. Positions stand apart (`layout`) and never reach the code generator.
+//! how it is written in `file`. What belongs to the editor's view stands apart and never reaches the code generator.
+
+mod graph;
+mod group;
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use crate::FORMAT_VERSION;
-use crate::value::Value;
+
+pub use graph::{Comment, Frame, Graph, Link, Node, Rect, SocketRef, free_name};
+pub use group::{GROUP_INPUT, GROUP_OUTPUT, Group, GroupInput, GroupOutput, Interface, group_of, is_group_id};
 
 /// Stable name of a node in a document: letters, digits and `_`, first a letter.
 pub type NodeId = String;
@@ -17,49 +21,16 @@ pub struct Document {
     pub version: u32,
     /// The material's name, for people.
     pub name: String,
-    /// The nodes by id.
-    pub nodes: BTreeMap<NodeId, Node>,
-    /// The wires, in order of drawing.
-    pub links: Vec<Link>,
-    /// Inputs that a user of the material may change, in the order shown.
+    /// The nodes, and how they are shown.
+    pub graph: Graph,
+    /// Groups of nodes by id: letters, digits and `_`, first a letter.
+    pub groups: BTreeMap<String, Group>,
+    /// Inputs of the top level's nodes that a user of the material may change, in the order shown.
     pub parameters: Vec<Parameter>,
     /// What the rasteriser must know.
     pub surface: SurfaceSettings,
-    /// View state of the editor, by node: no meaning for the shader.
-    pub layout: BTreeMap<NodeId, [f32; 2]>,
     /// Fields of the file that this version does not know, kept for saving.
     pub unknown: serde_json::Map<String, serde_json::Value>,
-}
-
-/// One node.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Node {
-    /// Id of the definition, such as `math/mix`.
-    pub node: String,
-    /// The user's name for it; the definition's label when absent.
-    pub label: Option<String>,
-    /// Values of unconnected inputs; absent ones have the definition's default.
-    pub values: BTreeMap<String, Value>,
-    /// Fields of the file that this version does not know, kept for saving.
-    pub unknown: serde_json::Map<String, serde_json::Value>,
-}
-
-/// A socket of a node; written `node.socket`.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct SocketRef {
-    /// Whose.
-    pub node: NodeId,
-    /// Which input or output.
-    pub socket: String,
-}
-
-/// A wire from an output to an input. An input has at most one.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Link {
-    /// The output.
-    pub from: SocketRef,
-    /// The input.
-    pub to: SocketRef,
 }
 
 /// An unconnected input that the material offers to its user under a name.
@@ -121,11 +92,10 @@ impl Document {
         Document {
             version: FORMAT_VERSION,
             name: name.into(),
-            nodes: BTreeMap::new(),
-            links: Vec::new(),
+            graph: Graph::default(),
+            groups: BTreeMap::new(),
             parameters: Vec::new(),
             surface: SurfaceSettings::default(),
-            layout: BTreeMap::new(),
             unknown: serde_json::Map::new(),
         }
     }
@@ -133,82 +103,21 @@ impl Document {
     /// A document with one surface node, `surface`, whose inputs have their defaults.
     pub fn with_surface(name: &str) -> Document {
         let mut document = Document::new(name);
-        document.nodes.insert("surface".into(), Node::new(SURFACE_NODE));
+        document.graph.nodes.insert("surface".into(), Node::new(SURFACE_NODE));
         document
     }
 
-    /// The output that feeds an input: of several links the first. It looks through all links; for many questions
-    /// use [`crate::wiring::Wiring`].
-    pub fn incoming(&self, input: &SocketRef) -> Option<&SocketRef> {
-        self.links.iter().find(|link| link.to == *input).map(|link| &link.from)
-    }
-
-    /// The value set on an input, if any.
-    pub fn value(&self, input: &SocketRef) -> Option<&Value> {
-        self.nodes.get(&input.node)?.values.get(&input.socket)
+    /// The top level's graph, or the inside of a group.
+    pub fn graph_of(&self, group: Option<&str>) -> Option<&Graph> {
+        match group {
+            None => Some(&self.graph),
+            Some(id) => self.groups.get(id).map(|group| &group.graph),
+        }
     }
 
     /// The parameter with this name.
     pub fn parameter(&self, name: &str) -> Option<&Parameter> {
         self.parameters.iter().find(|parameter| parameter.name == name)
-    }
-
-    /// An id that no node has: `base` made a name, with a number behind it when it is taken.
-    pub fn free_id(&self, base: &str) -> NodeId {
-        let mut name: String = base
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' })
-            .take(100)
-            .collect();
-        if !is_name(&name) {
-            name.insert_str(0, "node_");
-        }
-        let mut id = name.clone();
-        let mut number = 2u64;
-        while self.nodes.contains_key(&id) {
-            id = format!("{name}_{number}");
-            number += 1;
-        }
-        id
-    }
-}
-
-impl Node {
-    /// A node of this definition, such as `math/mix`, with all defaults.
-    pub fn new(node: &str) -> Node {
-        Node { node: node.into(), label: None, values: BTreeMap::new(), unknown: serde_json::Map::new() }
-    }
-
-    /// The same node with a value set.
-    pub fn with(mut self, socket: &str, value: Value) -> Node {
-        self.values.insert(socket.into(), value);
-        self
-    }
-}
-
-impl SocketRef {
-    /// The socket `socket` of the node `node`.
-    pub fn new(node: &str, socket: &str) -> SocketRef {
-        SocketRef { node: node.into(), socket: socket.into() }
-    }
-
-    /// Reads `node.socket`. Sockets have no dot in their names, so that even a node with one in its id is found again.
-    pub fn parse(written: &str) -> Option<SocketRef> {
-        let (node, socket) = written.rsplit_once('.')?;
-        Some(SocketRef::new(node, socket))
-    }
-}
-
-impl fmt::Display for SocketRef {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}.{}", self.node, self.socket)
-    }
-}
-
-impl Link {
-    /// A link from the output `from` to the input `to`.
-    pub fn new(from: SocketRef, to: SocketRef) -> Link {
-        Link { from, to }
     }
 }
 

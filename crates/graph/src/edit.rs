@@ -4,7 +4,13 @@
 //! on. An edit that cannot be made changes nothing. Every edit keeps the order of everything that it does not touch, so that undoing
 //! gives back the same file.
 
-use crate::document::{Document, Link, Node, NodeId, Parameter, SocketRef, SurfaceSettings};
+mod graph;
+
+use std::collections::BTreeMap;
+
+use crate::document::{
+    Comment, Document, Frame, Group, Interface, Link, Node, NodeId, Parameter, SocketRef, SurfaceSettings,
+};
 use crate::value::Value;
 
 /// A change of a document.
@@ -99,10 +105,74 @@ pub enum Edit {
         /// None to forget.
         position: Option<[f32; 2]>,
     },
+    /// Adds a frame.
+    AddFrame {
+        /// Free.
+        id: String,
+        /// The frame.
+        frame: Frame,
+    },
+    /// Removes a frame; the nodes in it stay.
+    RemoveFrame {
+        /// Which.
+        id: String,
+    },
+    /// Changes title, colour or rectangle of a frame.
+    SetFrame {
+        /// Which.
+        id: String,
+        /// What it is from now on.
+        frame: Frame,
+    },
+    /// Adds a comment.
+    AddComment {
+        /// Free.
+        id: String,
+        /// The comment.
+        comment: Comment,
+    },
+    /// Removes a comment.
+    RemoveComment {
+        /// Which.
+        id: String,
+    },
+    /// Changes text or rectangle of a comment.
+    SetComment {
+        /// Which.
+        id: String,
+        /// What it is from now on.
+        comment: Comment,
+    },
     /// Renames the material.
     SetName {
         /// For people.
         name: String,
+    },
+    /// Adds a group. Nodes that name it already become its own.
+    AddGroup {
+        /// Free.
+        id: String,
+        /// The group.
+        group: Box<Group>,
+    },
+    /// Removes a group; nodes that name it stay, and are reported by `check`.
+    RemoveGroup {
+        /// Which.
+        id: String,
+    },
+    /// Changes label, help, inputs or outputs of a group. Links are left as they are.
+    SetInterface {
+        /// Which group.
+        group: String,
+        /// From now on.
+        interface: Interface,
+    },
+    /// An edit of a group's inside: of its nodes, links and view.
+    In {
+        /// Which group.
+        group: String,
+        /// Any edit of a graph, or several.
+        edit: Box<Edit>,
     },
     /// Several edits as one: all or none.
     Many(Vec<Edit>),
@@ -117,6 +187,15 @@ pub enum EditError {
     /// The id is taken.
     #[error("the id `{0}` is in use; choose another one")]
     Taken(NodeId),
+    /// The group does not exist.
+    #[error("there is no group `{0}`; was it removed?")]
+    NoGroup(String),
+    /// The frame or comment does not exist.
+    #[error("there is no frame or comment `{0}`; was it removed?")]
+    NoNote(String),
+    /// The edit is none of a group's inside.
+    #[error("a group has no {0} of its own; they belong to the whole material")]
+    OfDocument(&'static str),
     /// The link does not exist.
     #[error("there is no link from {} to {}", .0.from, .0.to)]
     NoLink(Link),
@@ -132,15 +211,23 @@ pub enum EditError {
 
 /// Makes an edit and returns the one that undoes it, exactly.
 pub fn apply(document: &mut Document, edit: &Edit) -> Result<Edit, EditError> {
-    // Nested edits are worked off from a list, so that no nesting is too deep.
+    // Nested edits are worked off from a list, so that no nesting is too deep. With each goes the group that it is in.
     let mut inverses = Vec::new();
-    let mut waiting = vec![edit];
-    while let Some(edit) = waiting.pop() {
-        if let Edit::Many(edits) = edit {
-            waiting.extend(edits.iter().rev());
-            continue;
-        }
-        match apply_one(document, edit) {
+    let mut waiting: Vec<(Option<&str>, &Edit)> = vec![(None, edit)];
+    while let Some((group, edit)) = waiting.pop() {
+        let done = match (group, edit) {
+            (group, Edit::Many(edits)) => {
+                waiting.extend(edits.iter().rev().map(|edit| (group, edit)));
+                continue;
+            }
+            (None, Edit::In { group, edit }) => {
+                waiting.push((Some(group), edit));
+                continue;
+            }
+            (None, edit) => of_document(document, edit),
+            (Some(id), edit) => in_group(document, id, edit),
+        };
+        match done {
             Ok(inverse) => inverses.push(inverse),
             Err(e) => {
                 for inverse in inverses.iter().rev() {
@@ -165,42 +252,10 @@ fn parts(edit: Edit) -> Vec<Edit> {
     }
 }
 
-fn apply_one(document: &mut Document, edit: &Edit) -> Result<Edit, EditError> {
+fn of_document(document: &mut Document, edit: &Edit) -> Result<Edit, EditError> {
     match edit {
-        Edit::AddNode { id, node } => add_node(document, id, node),
         Edit::RemoveNode { id } => remove_node(document, id),
-        Edit::TakeNode { id } => match document.nodes.remove(id) {
-            Some(node) => Ok(Edit::AddNode { id: id.clone(), node }),
-            None => Err(EditError::NoNode(id.clone())),
-        },
         Edit::RenameNode { id, to } => rename_node(document, id, to),
-        Edit::SetValue { socket, value } => {
-            let node = node_mut(document, &socket.node)?;
-            let old = match value {
-                Some(value) => node.values.insert(socket.socket.clone(), value.clone()),
-                None => node.values.remove(&socket.socket),
-            };
-            Ok(Edit::SetValue { socket: socket.clone(), value: old })
-        }
-        Edit::SetLabel { id, label } => {
-            let old = std::mem::replace(&mut node_mut(document, id)?.label, label.clone());
-            Ok(Edit::SetLabel { id: id.clone(), label: old })
-        }
-        Edit::AddLink { link } => add_link(document, link),
-        Edit::RemoveLink { link } => {
-            let place = document.links.iter().position(|l| l == link).ok_or_else(|| EditError::NoLink(link.clone()))?;
-            Ok(Edit::InsertLinks { links: vec![(place, document.links.remove(place))] })
-        }
-        Edit::InsertLinks { links } => {
-            document.links = inserted(&document.links, links)?;
-            Ok(Edit::RemoveLinksAt { places: links.iter().map(|(place, _)| *place).collect() })
-        }
-        Edit::RemoveLinksAt { places } => {
-            ascending(places.iter().copied(), document.links.len())?;
-            Ok(Edit::InsertLinks {
-                links: remove_where(&mut document.links, |place, _| places.binary_search(&place).is_ok()),
-            })
-        }
         Edit::AddParameter { place, parameter } => {
             let length = document.parameters.len();
             let place = place.unwrap_or(length);
@@ -222,14 +277,29 @@ fn apply_one(document: &mut Document, edit: &Edit) -> Result<Edit, EditError> {
         Edit::SetSurface { surface } => {
             Ok(Edit::SetSurface { surface: std::mem::replace(&mut document.surface, *surface) })
         }
-        Edit::MoveNode { id, position } => move_node(document, id, *position),
         Edit::SetName { name } => Ok(Edit::SetName { name: std::mem::replace(&mut document.name, name.clone()) }),
-        Edit::Many(_) => apply(document, edit),
+        Edit::AddGroup { id, group } => {
+            add(&mut document.groups, id, group.as_ref())?;
+            Ok(Edit::RemoveGroup { id: id.clone() })
+        }
+        Edit::RemoveGroup { id } => match document.groups.remove(id) {
+            Some(group) => Ok(Edit::AddGroup { id: id.clone(), group: Box::new(group) }),
+            None => Err(EditError::NoGroup(id.clone())),
+        },
+        Edit::SetInterface { group: id, interface } => {
+            let group = document.groups.get_mut(id).ok_or_else(|| EditError::NoGroup(id.clone()))?;
+            let old = std::mem::replace(&mut group.interface, interface.clone());
+            Ok(Edit::SetInterface { group: id.clone(), interface: old })
+        }
+        Edit::In { .. } | Edit::Many(_) => apply(document, edit),
+        edit => graph::apply(&mut document.graph, edit),
     }
 }
 
-fn node_mut<'d>(document: &'d mut Document, id: &str) -> Result<&'d mut Node, EditError> {
-    document.nodes.get_mut(id).ok_or_else(|| EditError::NoNode(id.into()))
+fn in_group(document: &mut Document, id: &str, edit: &Edit) -> Result<Edit, EditError> {
+    let group = document.groups.get_mut(id).ok_or_else(|| EditError::NoGroup(id.into()))?;
+    let inverse = graph::apply(&mut group.graph, edit)?;
+    Ok(Edit::In { group: id.into(), edit: Box::new(inverse) })
 }
 
 fn parameter_mut(document: &mut Document, place: usize) -> Result<&mut Parameter, EditError> {
@@ -237,75 +307,33 @@ fn parameter_mut(document: &mut Document, place: usize) -> Result<&mut Parameter
     document.parameters.get_mut(place).ok_or(EditError::NoPlace { place, length })
 }
 
-fn add_node(document: &mut Document, id: &str, node: &Node) -> Result<Edit, EditError> {
-    if document.nodes.contains_key(id) {
+/// Puts something under a free id.
+fn add<T: Clone>(map: &mut BTreeMap<String, T>, id: &str, item: &T) -> Result<(), EditError> {
+    if map.contains_key(id) {
         return Err(EditError::Taken(id.into()));
     }
-    document.nodes.insert(id.into(), node.clone());
-    Ok(Edit::TakeNode { id: id.into() })
+    map.insert(id.into(), item.clone());
+    Ok(())
 }
 
+/// Removes a node of the top level, and the parameters that it gave.
 fn remove_node(document: &mut Document, id: &str) -> Result<Edit, EditError> {
-    let node = document.nodes.remove(id).ok_or_else(|| EditError::NoNode(id.into()))?;
-    let mut inverse = vec![Edit::AddNode { id: id.into(), node }];
-    if let Some(position) = document.layout.remove(id) {
-        inverse.push(Edit::MoveNode { id: id.into(), position: Some(position) });
-    }
+    let mut inverse = parts(graph::apply(&mut document.graph, &Edit::RemoveNode { id: id.into() })?);
     let parameters = remove_where(&mut document.parameters, |_, parameter| parameter.socket.node == id);
     inverse
         .extend(parameters.into_iter().map(|(place, parameter)| Edit::AddParameter { place: Some(place), parameter }));
-    let links = remove_where(&mut document.links, |_, link| link.from.node == id || link.to.node == id);
-    if !links.is_empty() {
-        inverse.push(Edit::InsertLinks { links });
-    }
     Ok(Edit::Many(inverse))
 }
 
+/// Renames a node of the top level, in the parameters too.
 fn rename_node(document: &mut Document, id: &str, to: &str) -> Result<Edit, EditError> {
-    if !document.nodes.contains_key(id) {
-        return Err(EditError::NoNode(id.into()));
-    }
-    // Links of a missing node would come into the renamed one's hands, and undoing would not give them back.
-    let is_named = document.nodes.contains_key(to)
-        || document.layout.contains_key(to)
-        || document.links.iter().any(|link| link.from.node == to || link.to.node == to)
-        || document.parameters.iter().any(|parameter| parameter.socket.node == to);
-    if is_named {
+    if document.graph.nodes.contains_key(id) && document.parameters.iter().any(|p| p.socket.node == to) {
         return Err(EditError::Taken(to.into()));
     }
-    if let Some(node) = document.nodes.remove(id) {
-        document.nodes.insert(to.into(), node);
-    }
-    if let Some(position) = document.layout.remove(id) {
-        document.layout.insert(to.into(), position);
-    }
-    let ends = document.links.iter_mut().flat_map(|link| [&mut link.from, &mut link.to]);
-    let sockets = ends.chain(document.parameters.iter_mut().map(|parameter| &mut parameter.socket));
+    let inverse = graph::apply(&mut document.graph, &Edit::RenameNode { id: id.into(), to: to.into() })?;
+    let sockets = document.parameters.iter_mut().map(|parameter| &mut parameter.socket);
     sockets.filter(|socket| socket.node == id).for_each(|socket| socket.node = to.into());
-    Ok(Edit::RenameNode { id: to.into(), to: id.into() })
-}
-
-fn add_link(document: &mut Document, link: &Link) -> Result<Edit, EditError> {
-    for id in [&link.from.node, &link.to.node] {
-        node_mut(document, id)?;
-    }
-    let old = remove_where(&mut document.links, |_, other| other.to == link.to);
-    let place = old.first().map_or(document.links.len(), |(place, _)| *place);
-    document.links.insert(place, link.clone());
-    let mut inverse = vec![Edit::RemoveLinksAt { places: vec![place] }];
-    if !old.is_empty() {
-        inverse.push(Edit::InsertLinks { links: old });
-    }
-    Ok(Edit::Many(inverse))
-}
-
-fn move_node(document: &mut Document, id: &str, position: Option<[f32; 2]>) -> Result<Edit, EditError> {
-    node_mut(document, id)?;
-    let old = match position {
-        Some(position) => document.layout.insert(id.into(), position),
-        None => document.layout.remove(id),
-    };
-    Ok(Edit::MoveNode { id: id.into(), position: old })
+    Ok(inverse)
 }
 
 /// Takes out the items that match, with their places.
@@ -317,29 +345,4 @@ fn remove_where<T>(list: &mut Vec<T>, matches: impl Fn(usize, &T) -> bool) -> Ve
     }
     *list = kept;
     removed
-}
-
-/// Refuses places that do not ascend or are not below `length`.
-fn ascending(places: impl Iterator<Item = usize>, length: usize) -> Result<(), EditError> {
-    let mut next = 0;
-    for place in places {
-        if place < next || place >= length {
-            return Err(EditError::NoPlace { place, length });
-        }
-        next = place + 1;
-    }
-    Ok(())
-}
-
-/// The list with items at places of the result.
-fn inserted(list: &[Link], new: &[(usize, Link)]) -> Result<Vec<Link>, EditError> {
-    ascending(new.iter().map(|(place, _)| *place), list.len() + new.len())?;
-    let mut out = Vec::with_capacity(list.len() + new.len());
-    let mut old = list.iter();
-    for (place, link) in new {
-        out.extend(old.by_ref().take(place - out.len()).cloned());
-        out.push(link.clone());
-    }
-    out.extend(old.cloned());
-    Ok(out)
 }

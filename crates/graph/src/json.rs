@@ -3,18 +3,18 @@
 //! It reads JSON as RFC 8259 has it, refuses a key that stands twice in one object (after a merge one of two nodes of the same
 //! name would vanish), and bounds the nesting. It does not know documents (see `file`) and does not write.
 
-/// Deepest nesting that is read; a document needs five.
+/// Deepest nesting that is read; a document needs seven.
 pub(crate) const MAX_DEPTH: usize = 64;
 
 /// A value and where it starts, in bytes from the start of the text.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Spanned {
     pub(crate) at: usize,
     pub(crate) json: Json,
 }
 
 /// A JSON value.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Json {
     Null,
     Bool(bool),
@@ -27,7 +27,7 @@ pub(crate) enum Json {
 }
 
 /// A field of an object.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Member {
     pub(crate) at: usize,
     pub(crate) key: String,

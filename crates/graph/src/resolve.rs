@@ -1,16 +1,16 @@
-//! Types of all sockets of a document: the one place where `T` of a generic node is decided.
+//! Types of all sockets of a graph: the one place where `T` of a generic node is decided.
 //!
 //! It reports nothing: links that do not fit are found by `check`, which compares the types given here.
 
 use std::collections::HashMap;
 
-use crate::document::Document;
+use crate::document::Graph;
 use crate::library::Library;
 use crate::node_def::NodeDef;
 use crate::value::{SocketType, Type};
 use crate::wiring::Wiring;
 
-/// The types of the known nodes of a document.
+/// The types of the known nodes of a graph.
 pub struct Types<'a> {
     nodes: HashMap<&'a str, NodeTypes<'a>>,
 }
@@ -45,7 +45,7 @@ impl NodeTypes<'_> {
 }
 
 impl<'a> Types<'a> {
-    /// The types of a node; none when the document has no such node or the library no such definition.
+    /// The types of a node; none when the graph has no such node or the library no such definition.
     pub fn get(&self, node: &str) -> Option<&NodeTypes<'a>> {
         self.nodes.get(node)
     }
@@ -54,21 +54,21 @@ impl<'a> Types<'a> {
 /// The types of all sockets. `T` of a node is the narrowest of its types that every generic input can be converted to: the
 /// connected ones by what feeds them, the others by the value set on them (one number fits all). When there is none, it is
 /// the widest that comes in, and some input does not fit. With nothing connected or set it is the narrowest.
-pub fn resolve_types<'a>(document: &'a Document, library: &'a Library) -> Types<'a> {
-    resolve_in(document, library, &Wiring::new(document))
+pub fn resolve_types<'a>(graph: &'a Graph, library: &'a Library) -> Types<'a> {
+    resolve_in(graph, library, &Wiring::new(graph))
 }
 
 /// [`resolve_types`] for a caller that has the wiring already.
-pub fn resolve_in<'a>(document: &'a Document, library: &'a Library, wiring: &Wiring<'a>) -> Types<'a> {
-    let mut types = Types { nodes: HashMap::with_capacity(document.nodes.len()) };
+pub fn resolve_in<'a>(graph: &'a Graph, library: &'a Library, wiring: &Wiring<'a>) -> Types<'a> {
+    let mut types = Types { nodes: HashMap::with_capacity(graph.nodes.len()) };
     for id in wiring.order_of_all() {
-        let Some(def) = document.nodes.get(id).and_then(|node| library.get(&node.node)) else { continue };
+        let Some(def) = graph.nodes.get(id).and_then(|node| library.get(&node.node)) else { continue };
         let generic = (!def.generic.is_empty()).then(|| {
             let incoming: Vec<Type> = def
                 .inputs
                 .iter()
                 .filter(|input| input.ty == SocketType::Generic)
-                .filter_map(|input| incoming_type(document, wiring, &types, id, &input.name))
+                .filter_map(|input| incoming_type(graph, wiring, &types, id, &input.name))
                 .collect();
             generic_type(&def.generic, &incoming)
         });
@@ -78,13 +78,13 @@ pub fn resolve_in<'a>(document: &'a Document, library: &'a Library, wiring: &Wir
 }
 
 /// The type that comes into an input by link or by value.
-fn incoming_type(document: &Document, wiring: &Wiring, types: &Types, node: &str, input: &str) -> Option<Type> {
+fn incoming_type(graph: &Graph, wiring: &Wiring, types: &Types, node: &str, input: &str) -> Option<Type> {
     match wiring.incoming(node, input) {
         Some(from) => match types.get(&from.node)?.output(&from.socket)? {
             SocketType::Value(ty) => Some(ty),
             _ => None,
         },
-        None => document.nodes.get(node)?.values.get(input)?.ty(),
+        None => graph.nodes.get(node)?.values.get(input)?.ty(),
     }
 }
 

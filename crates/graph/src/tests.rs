@@ -11,9 +11,12 @@ use std::sync::OnceLock;
 
 use proptest::prelude::*;
 
-use crate::document::{AlphaMode, Document, Link, Node, Parameter, SocketRef, SurfaceSettings};
+use crate::document::{
+    AlphaMode, Comment, Document, Frame, Graph, Group, GroupInput, GroupOutput, Interface, Link, Node, Parameter, Rect,
+    SocketRef, SurfaceSettings,
+};
 use crate::library::Library;
-use crate::value::{ColorSpace, Filter, ImageRef, Value, Wrap};
+use crate::value::{ColorSpace, Filter, ImageRef, Type, Value, Wrap};
 
 /// A library file for a generic node.
 const MIX: (&str, &str) = (
@@ -77,8 +80,8 @@ fn link(from: &str, to: &str) -> Link {
 /// A surface, and nodes and links given as `id` and `kind`, `from` and `to`.
 fn document(nodes: &[(&str, &str)], links: &[(&str, &str)]) -> Document {
     let mut document = Document::with_surface("test");
-    document.nodes.extend(nodes.iter().map(|(id, kind)| (id.to_string(), Node::new(kind))));
-    document.links.extend(links.iter().map(|(from, to)| link(from, to)));
+    document.graph.nodes.extend(nodes.iter().map(|(id, kind)| (id.to_string(), Node::new(kind))));
+    document.graph.links.extend(links.iter().map(|(from, to)| link(from, to)));
     document
 }
 
@@ -127,6 +130,7 @@ fn any_value() -> impl Strategy<Value = Value> {
 
 fn any_node() -> impl Strategy<Value = Node> {
     let kind = prop_oneof![
+        1 => Just("group/g".to_string()),
         3 => (0..8usize).prop_map(|i| small().iter().nth(i).map_or("math/mix".into(), |def| def.id.clone())),
         1 => "[a-z/]{0,8}",
     ];
@@ -152,23 +156,70 @@ fn any_settings() -> impl Strategy<Value = SurfaceSettings> {
     })
 }
 
-/// Any document, sound or not.
-fn any_document() -> impl Strategy<Value = Document> {
-    let layout = prop::collection::btree_map(any_id(), [any_number(), any_number()], 0..3);
+fn any_rect() -> impl Strategy<Value = Rect> {
+    [any_number(), any_number(), any_number(), any_number()]
+        .prop_map(|[x, y, width, height]| Rect { position: [x, y], size: [width, height] })
+}
+
+fn any_frame() -> impl Strategy<Value = Frame> {
+    (".{0,3}", prop::option::of(any::<[u8; 3]>()), any_rect()).prop_map(|(title, color, rect)| Frame {
+        title,
+        color,
+        rect,
+        ..Frame::default()
+    })
+}
+
+fn any_comment() -> impl Strategy<Value = Comment> {
+    (".{0,3}|a\nb", any_rect()).prop_map(|(text, rect)| Comment { text, rect, ..Comment::default() })
+}
+
+/// Any graph, sound or not.
+fn any_graph() -> impl Strategy<Value = Graph> {
     (
-        ".{0,5}",
         prop::collection::btree_map(any_id(), any_node(), 0..6),
         prop::collection::vec(any_link(), 0..8),
-        prop::collection::vec(any_parameter(), 0..4),
-        any_settings(),
-        layout,
+        prop::collection::btree_map(any_id(), [any_number(), any_number()], 0..3),
+        prop::collection::btree_map("[ab]", any_frame(), 0..2),
+        prop::collection::btree_map("[ab]", any_comment(), 0..2),
     )
-        .prop_map(|(name, nodes, links, parameters, surface, layout)| Document {
+        .prop_map(|(nodes, links, layout, frames, comments)| Graph {
             nodes,
             links,
+            layout,
+            frames,
+            comments,
+            ..Graph::default()
+        })
+}
+
+fn any_interface() -> impl Strategy<Value = Interface> {
+    let ty = || prop::sample::select(&[Type::F32, Type::Vec3, Type::Bool][..]);
+    let input = (any_id(), ty(), any_value(), prop::option::of(".{0,2}"))
+        .prop_map(|(name, ty, value, label)| GroupInput { label, ..GroupInput::new(&name, ty, value) });
+    let output = (any_id(), ty()).prop_map(|(name, ty)| GroupOutput::new(&name, ty));
+    (".{0,3}", prop::collection::vec(input, 0..3), prop::collection::vec(output, 0..3))
+        .prop_map(|(label, inputs, outputs)| Interface { label, inputs, outputs, help: String::new() })
+}
+
+fn any_group() -> impl Strategy<Value = Group> {
+    (any_interface(), any_graph()).prop_map(|(interface, graph)| Group { interface, graph, ..Group::default() })
+}
+
+/// Any document, sound or not.
+fn any_document() -> impl Strategy<Value = Document> {
+    (
+        ".{0,5}",
+        any_graph(),
+        prop::collection::vec(any_parameter(), 0..4),
+        any_settings(),
+        prop::collection::btree_map("[gh]", any_group(), 0..2),
+    )
+        .prop_map(|(name, graph, parameters, surface, groups)| Document {
+            graph,
             parameters,
             surface,
-            layout,
+            groups,
             ..Document::new(&name)
         })
 }

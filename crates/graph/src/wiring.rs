@@ -1,4 +1,4 @@
-//! Who feeds whom: the links of a document, indexed once for many questions, and orders of its nodes.
+//! Who feeds whom: the links of a graph, indexed once for many questions, and orders of its nodes.
 //!
 //! It knows no node definitions, so sockets that do not exist are wired like others (`check` reports them). Links from
 //! nodes that do not exist are kept as answers and skipped in orders. Everything is iterative: a chain of 10,000 nodes
@@ -7,7 +7,7 @@
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 
-use crate::document::{Document, Link, SocketRef};
+use crate::document::{Graph, Link, SocketRef};
 
 /// The index. Where two links lead into one input, the first counts.
 pub struct Wiring<'d> {
@@ -18,7 +18,7 @@ pub struct Wiring<'d> {
     incoming: Vec<BTreeMap<&'d str, &'d SocketRef>>,
     /// By node: the nodes that feed it, in order of its inputs.
     feeding: Vec<Vec<usize>>,
-    /// By node: the links that start at it, in the document's order.
+    /// By node: the links that start at it, in the graph's order.
     outgoing: Vec<Vec<&'d Link>>,
 }
 
@@ -38,13 +38,13 @@ enum State {
 }
 
 impl<'d> Wiring<'d> {
-    /// Indexes the links of a document.
-    pub fn new(document: &'d Document) -> Wiring<'d> {
-        let ids: Vec<&str> = document.nodes.keys().map(String::as_str).collect();
+    /// Indexes the links of a graph.
+    pub fn new(graph: &'d Graph) -> Wiring<'d> {
+        let ids: Vec<&str> = graph.nodes.keys().map(String::as_str).collect();
         let index: HashMap<&str, usize> = ids.iter().enumerate().map(|(i, id)| (*id, i)).collect();
         let mut incoming = vec![BTreeMap::new(); ids.len()];
         let mut outgoing = vec![Vec::new(); ids.len()];
-        for link in &document.links {
+        for link in &graph.links {
             let Some(&to) = index.get(link.to.node.as_str()) else { continue };
             if let Entry::Vacant(entry) = incoming[to].entry(link.to.socket.as_str()) {
                 entry.insert(&link.from);
@@ -60,7 +60,7 @@ impl<'d> Wiring<'d> {
         Wiring { ids, index, incoming, feeding, outgoing }
     }
 
-    /// Whether the document has this node.
+    /// Whether the graph has this node.
     pub fn contains(&self, node: &str) -> bool {
         self.index.contains_key(node)
     }
@@ -76,7 +76,7 @@ impl<'d> Wiring<'d> {
         sockets.into_iter().flatten().map(|(socket, from)| (*socket, *from))
     }
 
-    /// The links from a node to inputs that they feed, in the document's order.
+    /// The links from a node to inputs that they feed, in the graph's order.
     pub fn outgoing(&self, node: &str) -> &[&'d Link] {
         self.index.get(node).map_or(&[], |&i| self.outgoing[i].as_slice())
     }

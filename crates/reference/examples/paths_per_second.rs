@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// A metal whose colour is a picture.
 fn scene(data: &Path) -> Result<Scene, Box<dyn std::error::Error>> {
     let mut document = Document::with_surface("textured metal");
-    let surface = document.nodes.get_mut("surface").ok_or("a surface")?;
+    let surface = document.graph.nodes.get_mut("surface").ok_or("a surface")?;
     surface.values.insert("metallic".into(), Value::Number(1.0));
     surface.values.insert("perceptual_roughness".into(), Value::Number(0.4));
     let mut picture = Node::new("textures/image");
@@ -67,8 +67,8 @@ fn scene(data: &Path) -> Result<Scene, Box<dyn std::error::Error>> {
         filter: Default::default(),
     };
     picture.values.insert("image".into(), Value::Image(image));
-    document.nodes.insert("picture".into(), picture);
-    document.links.push(Link::new(SocketRef::new("picture", "color"), SocketRef::new("surface", "base_color")));
+    document.graph.nodes.insert("picture".into(), picture);
+    document.graph.links.push(Link::new(SocketRef::new("picture", "color"), SocketRef::new("surface", "base_color")));
     let mut scene = Scene::from_material(document, data, &MeshSource::Builtin(BuiltinMesh::Sphere))?;
     scene.methods.set("v", "separable")?;
     scene.methods.set("compensation", "none")?;

@@ -243,11 +243,16 @@ fn is_link(path: &Path) -> bool {
 /// (node id, label, image) of every image value on a node that a surface reads from, in order of ids and sockets.
 fn images_of(document: &Document) -> Vec<(&str, Option<&str>, &ImageRef)> {
     let mut feeds: HashMap<&str, Vec<&str>> = HashMap::new();
-    for link in &document.links {
+    for link in &document.graph.links {
         feeds.entry(&link.to.node).or_default().push(&link.from.node);
     }
-    let mut open: Vec<&str> =
-        document.nodes.iter().filter(|(_, n)| n.node.starts_with("surface/")).map(|(id, _)| id.as_str()).collect();
+    let mut open: Vec<&str> = document
+        .graph
+        .nodes
+        .iter()
+        .filter(|(_, n)| n.node.starts_with("surface/"))
+        .map(|(id, _)| id.as_str())
+        .collect();
     let mut live: BTreeSet<&str> = open.iter().copied().collect();
     while let Some(node) = open.pop() {
         for &source in feeds.get(node).into_iter().flatten() {
@@ -256,7 +261,7 @@ fn images_of(document: &Document) -> Vec<(&str, Option<&str>, &ImageRef)> {
             }
         }
     }
-    let nodes = live.into_iter().filter_map(|id| document.nodes.get(id).map(|node| (id, node)));
+    let nodes = live.into_iter().filter_map(|id| document.graph.nodes.get(id).map(|node| (id, node)));
     nodes
         .flat_map(|(id, node)| {
             node.values.values().filter_map(move |value| match value {

@@ -16,12 +16,13 @@ use crate::scene::SceneMaterial;
 pub fn normal_map_problems(material: &SceneMaterial, images: &ImageStore) -> Vec<Problem> {
     let document = &material.document;
     let heights: Vec<&ImageRef> = height_images(document);
-    let normal_maps = document.nodes.iter().filter(|(_, node)| node.node == "textures/normal_map");
+    let normal_maps = document.graph.nodes.iter().filter(|(_, node)| node.node == "textures/normal_map");
     let mut problems = Vec::new();
     for (id, node) in normal_maps {
-        let linked = |socket: &str| document.links.iter().find(|link| link.to.node == *id && link.to.socket == socket);
+        let linked =
+            |socket: &str| document.graph.links.iter().find(|link| link.to.node == *id && link.to.socket == socket);
         let (Some(link), None) = (linked("color"), linked("flip_y")) else { continue };
-        let Some(image) = document.nodes.get(&link.from.node).and_then(image_of) else { continue };
+        let Some(image) = document.graph.nodes.get(&link.from.node).and_then(image_of) else { continue };
         let flips = matches!(node.values.get("flip_y"), Some(Value::Bool(true)));
         let found = heights.iter().find_map(|height| {
             let found = agreement(images.get(&material.directory, image)?, images.get(&material.directory, height)?)?;
@@ -59,8 +60,9 @@ fn message(normal: &str, height: &str, found: &Agreement, flips: bool) -> String
 
 /// The images that the surface's height is made of.
 fn height_images(document: &Document) -> Vec<&ImageRef> {
-    let is_surface = |id: &str| document.nodes.get(id).is_some_and(|node| node.node.starts_with("surface/"));
+    let is_surface = |id: &str| document.graph.nodes.get(id).is_some_and(|node| node.node.starts_with("surface/"));
     let mut open: Vec<&str> = document
+        .graph
         .links
         .iter()
         .filter(|link| link.to.socket == "height" && is_surface(&link.to.node))
@@ -70,10 +72,12 @@ fn height_images(document: &Document) -> Vec<&ImageRef> {
     while let Some(node) = open.pop() {
         if !seen.contains(&node) {
             seen.push(node);
-            open.extend(document.links.iter().filter(|link| link.to.node == node).map(|link| link.from.node.as_str()));
+            open.extend(
+                document.graph.links.iter().filter(|link| link.to.node == node).map(|link| link.from.node.as_str()),
+            );
         }
     }
-    seen.into_iter().filter_map(|id| document.nodes.get(id).and_then(image_of)).collect()
+    seen.into_iter().filter_map(|id| document.graph.nodes.get(id).and_then(image_of)).collect()
 }
 
 fn image_of(node: &Node) -> Option<&ImageRef> {

@@ -63,7 +63,7 @@ pub fn set_parameter(document: &mut Document, name: &str, numbers: &[f32]) -> Re
         return Err(ParameterError::NotFinite { name: name.into() });
     }
     let socket = parameter.socket.clone();
-    let Some(node) = document.nodes.get_mut(&socket.node) else {
+    let Some(node) = document.graph.nodes.get_mut(&socket.node) else {
         return Err(ParameterError::NoNode { name: name.into(), node: socket.node });
     };
     let value = match node.values.get(&socket.socket) {
@@ -120,11 +120,11 @@ mod tests {
     fn numbers_take_the_shape_of_the_value() {
         let mut document = document();
         set_parameter(&mut document, "base_color", &[0.1, 0.2, 0.3]).unwrap();
-        assert_eq!(document.nodes["surface"].values["base_color"], Value::Vec3([0.1, 0.2, 0.3]));
+        assert_eq!(document.graph.nodes["surface"].values["base_color"], Value::Vec3([0.1, 0.2, 0.3]));
         set_parameter(&mut document, "base_color", &[0.5]).unwrap();
-        assert_eq!(document.nodes["surface"].values["base_color"], Value::Vec3([0.5; 3]));
+        assert_eq!(document.graph.nodes["surface"].values["base_color"], Value::Vec3([0.5; 3]));
         set_parameter(&mut document, "ior", &[1.4]).unwrap();
-        assert_eq!(document.nodes["surface"].values["ior"], Value::Number(1.4));
+        assert_eq!(document.graph.nodes["surface"].values["ior"], Value::Number(1.4));
     }
 
     #[test]

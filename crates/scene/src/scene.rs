@@ -300,14 +300,7 @@ pub(crate) fn surface_document<const N: usize>(name: &str, values: [(&str, Value
         values: values.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
         unknown: Default::default(),
     };
-    Document {
-        version: halfvector_graph::FORMAT_VERSION,
-        name: name.to_owned(),
-        nodes: [("surface".to_owned(), node)].into(),
-        links: Vec::new(),
-        parameters: Vec::new(),
-        surface: Default::default(),
-        layout: Default::default(),
-        unknown: Default::default(),
-    }
+    let mut document = Document::new(name);
+    document.graph.nodes.insert("surface".to_owned(), node);
+    document
 }

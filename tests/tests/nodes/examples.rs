@@ -33,7 +33,7 @@ fn examples() -> Vec<(String, Document)> {
 fn every_node_stands_in_the_example_of_its_category() {
     let mut used: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for (name, document) in examples() {
-        used.entry(name).or_default().extend(document.nodes.values().map(|node| node.node.clone()));
+        used.entry(name).or_default().extend(document.graph.nodes.values().map(|node| node.node.clone()));
     }
     // The surface is what every document ends in.
     let missing: Vec<&str> = Library::standard()

@@ -173,7 +173,7 @@ impl<'a, 't> Lowering<'a, 't> {
             };
             return Ok(arena.convert(id, ty));
         }
-        let set = self.document.nodes[info.id].values.get(&def.name);
+        let set = self.document.graph.nodes[info.id].values.get(&def.name);
         let components = match (set.and_then(Value::components), &def.default) {
             (Some(components), _) => components.to_vec(),
             (None, Default::Value(value)) => value.components().unwrap_or(&[0.0]).to_vec(),
@@ -217,7 +217,7 @@ impl<'a, 't> Lowering<'a, 't> {
         def: &InputDef,
     ) -> Result<Id, CodegenError> {
         let info = &self.types.nodes[node];
-        let Some(Value::Image(image)) = self.document.nodes[info.id].values.get(&def.name) else {
+        let Some(Value::Image(image)) = self.document.graph.nodes[info.id].values.get(&def.name) else {
             return Err(CodegenError::NoImage {
                 node: info.id.clone(),
                 label: info.label.to_owned(),
@@ -332,7 +332,7 @@ fn unit_normal<'a>(arena: &mut Arena<'a>, types: &Types<'a>, id: Id) -> Id {
 /// The value that an unconnected input of a document has, with as many components as `ty` takes: what
 /// `UniformSource::Input` is filled with. `None` for what has no number (a texture, an unset context, an unknown node).
 pub fn input_value(document: &Document, library: &Library, socket: &SocketRef, ty: Type) -> Option<Vec<f32>> {
-    let node = document.nodes.get(&socket.node)?;
+    let node = document.graph.nodes.get(&socket.node)?;
     let set = node.values.get(&socket.socket);
     let value = match set {
         Some(value) => value,

@@ -31,13 +31,15 @@ pub(crate) struct Types<'a> {
 /// Looks everything up that the surface reaches.
 pub(crate) fn resolve<'a>(document: &'a Document, library: &'a Library) -> Result<Types<'a>, CodegenError> {
     let root = surface_node(document, library).ok_or(CodegenError::NoSurface)?;
-    let wiring = Wiring::new(document);
+    let wiring = Wiring::new(&document.graph);
     let order = wiring.order(&[root]).map_err(|cycle| CodegenError::Library(cycle.to_string()))?;
-    let resolved = resolve_in(document, library, &wiring);
+    let resolved = resolve_in(&document.graph, library, &wiring);
     let mut types = Types { nodes: Vec::new(), sources: Vec::new(), surface: 0 };
     let mut index: HashMap<&str, usize> = HashMap::new();
     for id in order {
-        let (Some((id, node)), Some(known)) = (document.nodes.get_key_value(id), resolved.get(id)) else { continue };
+        let (Some((id, node)), Some(known)) = (document.graph.nodes.get_key_value(id), resolved.get(id)) else {
+            continue;
+        };
         let sources = known
             .def
             .inputs

@@ -69,7 +69,7 @@ fn four_maps_in_an_environment() {
 #[test]
 fn all_lobes_with_four_maps_in_an_environment() {
     let mut document = maps();
-    let values = &mut document.nodes.get_mut("surface").expect("the surface").values;
+    let values = &mut document.graph.nodes.get_mut("surface").expect("the surface").values;
     values.insert("coat_weight".into(), Value::Number(0.8));
     values.insert("coat_roughness".into(), Value::Number(0.1));
     values.insert("coat_color".into(), Value::Vec3([1.0, 0.9, 0.8]));

@@ -63,27 +63,28 @@ fn what_is_not_finite_is_a_problem_of_its_node() {
 fn live_numbers_change_no_text() {
     let mut document = maps();
     for (id, node) in [("scaled", "math/multiply"), ("noise", "procedural/fbm_2d")] {
-        document.nodes.insert(
+        document.graph.nodes.insert(
             id.into(),
             super::document(&format!(
                 r#"{{"halfvector": 1, "name": "", "nodes": {{"{id}": {{"node": "{node}"}}}}, "links": []}}"#
             ))
+            .graph
             .nodes
             .remove(id)
             .expect("the node"),
         );
     }
     let before = made(&document, &environment(), Fold::Live).wgsl;
-    let ids: Vec<String> = document.nodes.keys().cloned().collect();
+    let ids: Vec<String> = document.graph.nodes.keys().cloned().collect();
     let mut tried = 0;
     for id in ids {
-        let def = Library::standard().get(&document.nodes[&id].node).expect("a standard node");
+        let def = Library::standard().get(&document.graph.nodes[&id].node).expect("a standard node");
         for input in &def.inputs {
             let halvfector_default = match &input.default {
                 halfvector_graph::node_def::Default::Value(value) => value.clone(),
                 _ => continue,
             };
-            if document.links.iter().any(|l| l.to.node == id && l.to.socket == input.name) {
+            if document.graph.links.iter().any(|l| l.to.node == id && l.to.socket == input.name) {
                 continue;
             }
             let changed = match &halvfector_default {
@@ -114,7 +115,7 @@ fn live_numbers_change_no_text() {
                 continue;
             }
             let mut other = document.clone();
-            other.nodes.get_mut(&id).expect("the node").values.insert(input.name.clone(), changed);
+            other.graph.nodes.get_mut(&id).expect("the node").values.insert(input.name.clone(), changed);
             let after = shader(&other, Library::standard(), &environment(), Fold::Live).expect("a shader").wgsl;
             assert_eq!(before, after, "{id}.{}", input.name);
             tried += 1;
@@ -156,7 +157,7 @@ fn exposed_parameters_stay() {
 fn moving_a_node_changes_nothing() {
     let here = maps();
     let mut there = here.clone();
-    there.layout.insert("albedo".into(), [512.0, -3.5]);
+    there.graph.layout.insert("albedo".into(), [512.0, -3.5]);
     let wgsl = |document: &Document| exported(document, &environment()).wgsl;
     assert_eq!(wgsl(&here), wgsl(&there));
 }
@@ -165,7 +166,7 @@ fn moving_a_node_changes_nothing() {
 fn the_order_of_links_changes_nothing() {
     let here = maps();
     let mut there = here.clone();
-    there.links.reverse();
+    there.graph.links.reverse();
     assert_eq!(exported(&here, &environment()), exported(&there, &environment()));
 }
 

@@ -31,7 +31,7 @@ fn labels_cannot_leave_their_comment() {
             r#"{"from": "a.out", "to": "b.x"}, {"from": "b.out", "to": "surface.base_color"}"#,
         );
         let mut document = document;
-        document.name = document.nodes["a"].label.clone().unwrap_or_default();
+        document.name = document.graph.nodes["a"].label.clone().unwrap_or_default();
         let shader = exported(&document, &sun());
         let code: Vec<&str> = shader.wgsl.lines().map(|l| l.split("//").next().unwrap_or("")).collect();
         assert!(!code.iter().any(|l| l.contains("discard;") || l.contains("fn evil")), "{label}\n{}", shader.wgsl);

@@ -70,7 +70,7 @@ fn discard_comes_after_the_samples() {
     document.surface.alpha_mode = AlphaMode::Mask;
     let link =
         r#"{"halfvector": 1, "name": "", "nodes": {}, "links": [{"from": "albedo.alpha", "to": "surface.opacity"}]}"#;
-    document.links.extend(super::document(link).links);
+    document.graph.links.extend(super::document(link).graph.links);
     let shader = exported(&document, &environment());
     let fragment = part(&shader, "fs_main");
     let discard = fragment.find("discard").expect("a discard");

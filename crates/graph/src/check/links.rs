@@ -10,7 +10,7 @@ use crate::value::SocketType;
 pub(super) fn check(checker: &mut Checker) {
     let document = checker.document;
     let mut first: HashMap<&SocketRef, &Link> = HashMap::new();
-    for link in &document.links {
+    for link in &document.graph.links {
         if let Some(earlier) = first.get(&link.to) {
             let message = format!(
                 "two links lead into this input, from {} and from {}; remove one of them (the first counts)",

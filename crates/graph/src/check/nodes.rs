@@ -11,7 +11,7 @@ const MAX_SEARCHES: usize = 100;
 pub(super) fn check(checker: &mut Checker) {
     let document = checker.document;
     let mut searches = 0;
-    for (id, node) in &document.nodes {
+    for (id, node) in &document.graph.nodes {
         name(checker, id, node);
         let Some(def) = checker.library.get(&node.node) else {
             searches += 1;

@@ -30,7 +30,7 @@ fn one(checker: &mut Checker, parameter: &Parameter) {
         let message = format!("the range of the parameter `{name}` needs two finite numbers, the smaller one first");
         checker.of_document(Severity::Error, message);
     }
-    let Some(set) = checker.document.nodes.get(node) else {
+    let Some(set) = checker.document.graph.nodes.get(node) else {
         let message = format!(
             "the parameter `{name}` sets `{}`, but there is no such node; remove the parameter",
             parameter.socket

@@ -20,7 +20,9 @@ pub(super) fn check(checker: &mut Checker, surface: &str) {
 }
 
 fn vertex_stage(checker: &mut Checker, id: &str) {
-    let Some(def) = checker.document.nodes.get(id).and_then(|node| checker.library.get(&node.node)) else { return };
+    let Some(def) = checker.document.graph.nodes.get(id).and_then(|node| checker.library.get(&node.node)) else {
+        return;
+    };
     if def.function.implicit_derivatives && def.vertex_function.is_none() {
         let message = format!(
             "it feeds the surface's height, which is computed for each vertex, but `{}` compares neighbouring pixels and works in the fragment stage only; feed height from another node",
@@ -30,7 +32,7 @@ fn vertex_stage(checker: &mut Checker, id: &str) {
     }
     for input in &def.inputs {
         let is_free = checker.wiring.incoming(id, &input.name).is_none()
-            && !checker.document.nodes[id].values.contains_key(&input.name);
+            && !checker.document.graph.nodes[id].values.contains_key(&input.name);
         let reads = match &input.default {
             Default::Context(name) if is_free => context(name),
             _ => None,
@@ -53,7 +55,7 @@ fn vertex_stage_lacks(context: &Context) -> Option<String> {
 
 fn roughness(checker: &mut Checker, surface: &str) {
     const SOCKET: &str = "perceptual_roughness";
-    let Some(node) = checker.document.nodes.get(surface) else { return };
+    let Some(node) = checker.document.graph.nodes.get(surface) else { return };
     let default = || {
         let def = checker.library.get(&node.node)?;
         match &def.inputs.iter().find(|input| input.name == SOCKET)?.default {

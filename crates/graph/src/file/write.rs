@@ -1,127 +1,57 @@
 //! Document to text.
 
-use std::collections::{HashMap, HashSet};
-use std::fmt::Write;
-use std::io;
+mod graph;
+mod group;
+mod value;
 
-use serde::Serialize;
-use serde_json::ser::Formatter;
+use std::collections::HashMap;
+
 use serde_json::{Map, Value as Plain};
 
-use super::read::{link_of_plain, parameter_key_of_plain};
-use crate::document::{Document, Link, Node, Parameter, SocketRef, SurfaceSettings};
-use crate::value::{ColorSpace, Filter, ImageRef, Value, Wrap};
+use super::read::parameter_key_of_plain;
+use crate::document::{Document, Parameter, SocketRef, SurfaceSettings};
+use graph::kept_list;
+use value::{number, numbers, plain_json, push_unknown, quoted};
 
 /// The document as text, in the fixed order; ends with a line break.
 pub fn to_json(document: &Document) -> String {
-    let mut sections: Vec<String> = vec![
-        format!("  \"halfvector\": {}", document.version),
-        format!("  \"name\": {}", quoted(&document.name)),
-        block("nodes", '{', '}', node_lines(document)),
-        block("links", '[', ']', link_lines(document)),
-    ];
+    let mut sections: Vec<String> =
+        vec![format!("  \"halfvector\": {}", document.version), format!("  \"name\": {}", quoted(&document.name))];
+    sections.extend(graph::meaning(&document.graph, 2));
     let parameters = parameter_lines(document);
     if !parameters.is_empty() {
-        sections.push(block("parameters", '[', ']', parameters));
+        sections.push(block("parameters", '[', ']', parameters, 2));
     }
     if let Some(surface) = surface_json(document) {
         sections.push(format!("  \"surface\": {surface}"));
     }
-    let layout = layout_lines(document);
-    if !layout.is_empty() {
-        sections.push(block("layout", '{', '}', layout));
+    let groups = group::lines(document);
+    if !groups.is_empty() {
+        sections.push(block("groups", '{', '}', groups, 2));
     }
+    sections.extend(graph::view(&document.graph, 2));
     for (key, value) in &document.unknown {
-        if !SECTIONS.contains(&key.as_str()) {
+        if !SECTIONS.contains(&key.as_str()) || (key == "groups" && !value.is_object()) {
             sections.push(format!("  {}: {}", quoted(key), plain_json(value)));
         }
     }
     format!("{{\n{}\n}}\n", sections.join(",\n"))
 }
 
-/// The fields of a document; what stands under these names in `Document::unknown` is merged into them.
-pub(super) const SECTIONS: &[&str] = &["halfvector", "name", "nodes", "links", "parameters", "surface", "layout"];
+/// Sections of which parts may be kept: what stands under these names in `Document::unknown` is merged into them.
+const SECTIONS: &[&str] = &["parameters", "surface", "groups"];
 
-fn block(name: &str, open: char, close: char, lines: Vec<String>) -> String {
+/// A section of lines, indented by `indent`.
+fn block(name: &str, open: char, close: char, lines: Vec<String>, indent: usize) -> String {
+    let margin = " ".repeat(indent);
     if lines.is_empty() {
-        return format!("  \"{name}\": {open}{close}");
+        return format!("{margin}\"{name}\": {open}{close}");
     }
-    format!("  \"{name}\": {open}\n    {}\n  {close}", lines.join(",\n    "))
-}
-
-fn node_lines(document: &Document) -> Vec<String> {
-    let mut lines: Vec<(&str, String)> =
-        document.nodes.iter().map(|(id, node)| (id.as_str(), node_json(node))).collect();
-    if let Some(Plain::Object(kept)) = document.unknown.get("nodes") {
-        lines.extend(
-            kept.iter()
-                .filter(|(id, _)| !document.nodes.contains_key(*id))
-                .map(|(id, raw)| (id.as_str(), plain_json(raw))),
-        );
-        lines.sort_by(|a, b| a.0.cmp(b.0));
-    }
-    lines.into_iter().map(|(id, json)| format!("{}: {json}", quoted(id))).collect()
-}
-
-fn node_json(node: &Node) -> String {
-    let mut fields = vec![format!("\"node\": {}", quoted(&node.node))];
-    match (&node.label, node.unknown.get("label")) {
-        (Some(label), _) => fields.push(format!("\"label\": {}", quoted(label))),
-        (None, Some(raw)) => fields.push(format!("\"label\": {}", plain_json(raw))),
-        (None, None) => {}
-    }
-    let mut values: Vec<(&str, String)> =
-        node.values.iter().map(|(socket, value)| (socket.as_str(), value_json(value))).collect();
-    match node.unknown.get("values") {
-        Some(Plain::Object(kept)) => {
-            let others = kept.iter().filter(|(socket, _)| !node.values.contains_key(*socket));
-            values.extend(others.map(|(socket, raw)| (socket.as_str(), plain_json(raw))));
-            values.sort_by(|a, b| a.0.cmp(b.0));
-        }
-        Some(raw) if values.is_empty() => fields.push(format!("\"values\": {}", plain_json(raw))),
-        _ => {}
-    }
-    if !values.is_empty() {
-        let values: Vec<String> =
-            values.into_iter().map(|(socket, json)| format!("{}: {json}", quoted(socket))).collect();
-        fields.push(format!("\"values\": {{{}}}", values.join(", ")));
-    }
-    push_unknown(&mut fields, &node.unknown, &["node", "label", "values"]);
-    format!("{{{}}}", fields.join(", "))
-}
-
-fn push_unknown(fields: &mut Vec<String>, unknown: &Map<String, Plain>, known: &[&str]) {
-    for (key, value) in unknown {
-        if !known.contains(&key.as_str()) {
-            fields.push(format!("{}: {}", quoted(key), plain_json(value)));
-        }
-    }
-}
-
-fn link_lines(document: &Document) -> Vec<String> {
-    let kept = kept_list(document, "links");
-    let extras: HashMap<Link, &Map<String, Plain>> =
-        kept.iter().filter_map(|raw| Some((link_of_plain(raw)?, raw.as_object()?))).collect();
-    let links = document.links.iter().map(|link| {
-        let mut fields = vec![
-            format!("\"from\": {}", quoted(&link.from.to_string())),
-            format!("\"to\": {}", quoted(&link.to.to_string())),
-        ];
-        if let Some(extra) = extras.get(link) {
-            push_unknown(&mut fields, extra, &["from", "to"]);
-        }
-        format!("{{{}}}", fields.join(", "))
-    });
-    let others = kept.iter().filter(|raw| link_of_plain(raw).is_none()).map(plain_json);
-    links.chain(others).collect()
-}
-
-fn kept_list<'d>(document: &'d Document, section: &str) -> &'d [Plain] {
-    document.unknown.get(section).and_then(Plain::as_array).map_or(&[], Vec::as_slice)
+    format!("{margin}\"{name}\": {open}\n{margin}  {}\n{margin}{close}", lines.join(&format!(",\n{margin}  ")))
 }
 
 fn parameter_lines(document: &Document) -> Vec<String> {
-    let kept = kept_list(document, "parameters");
+    let kept = kept_list(&document.unknown, "parameters");
     let extras: HashMap<(String, SocketRef), &Map<String, Plain>> =
         kept.iter().filter_map(|raw| Some((parameter_key_of_plain(raw)?, raw.as_object()?))).collect();
     let parameters = document.parameters.iter().map(|parameter| {
@@ -178,98 +108,4 @@ fn surface_json(document: &Document) -> Option<String> {
         .collect();
     push_unknown(&mut fields, kept, &["alpha_mode", "alpha_cutoff", "double_sided"]);
     Some(format!("{{{}}}", fields.join(", ")))
-}
-
-fn layout_lines(document: &Document) -> Vec<String> {
-    let mut lines: Vec<(&str, String)> =
-        document.layout.iter().map(|(id, position)| (id.as_str(), numbers(position))).collect();
-    if let Some(Plain::Object(kept)) = document.unknown.get("layout") {
-        let known: HashSet<&str> = document.layout.keys().map(String::as_str).collect();
-        let others = kept.iter().filter(|(id, _)| !known.contains(id.as_str()));
-        lines.extend(others.map(|(id, raw)| (id.as_str(), plain_json(raw))));
-        lines.sort_by(|a, b| a.0.cmp(b.0));
-    }
-    lines.into_iter().map(|(id, json)| format!("{}: {json}", quoted(id))).collect()
-}
-
-fn value_json(value: &Value) -> String {
-    match value {
-        Value::Bool(b) => b.to_string(),
-        Value::Number(x) => number(*x),
-        Value::Vec2(v) => numbers(v),
-        Value::Vec3(v) => numbers(v),
-        Value::Vec4(v) => numbers(v),
-        Value::Image(image) => image_json(image),
-    }
-}
-
-fn image_json(image: &ImageRef) -> String {
-    let color_space = match image.color_space {
-        ColorSpace::Srgb => "srgb",
-        ColorSpace::Linear => "linear",
-    };
-    let mut out = format!("{{\"file\": {}, \"color_space\": \"{color_space}\"", quoted(&image.file));
-    for (name, wrap) in [("wrap_u", image.wrap_u), ("wrap_v", image.wrap_v)] {
-        let wrap = match wrap {
-            Wrap::Repeat => continue,
-            Wrap::Clamp => "clamp",
-            Wrap::Mirror => "mirror",
-        };
-        let _ = write!(out, ", \"{name}\": \"{wrap}\"");
-    }
-    if image.filter == Filter::Nearest {
-        out.push_str(", \"filter\": \"nearest\"");
-    }
-    out.push('}');
-    out
-}
-
-/// A value that this version does not know, with the writer's own spacing.
-fn plain_json(value: &Plain) -> String {
-    let mut bytes = Vec::new();
-    let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Spaced);
-    // Writing to memory does not fail; without spaces it is the same value.
-    match value.serialize(&mut serializer) {
-        Ok(()) => String::from_utf8(bytes).unwrap_or_else(|_| value.to_string()),
-        Err(_) => value.to_string(),
-    }
-}
-
-/// Everything in one line, with a space after each `,` and `:`.
-struct Spaced;
-
-impl Formatter for Spaced {
-    fn begin_array_value<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
-        if first { Ok(()) } else { writer.write_all(b", ") }
-    }
-
-    fn begin_object_key<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
-        if first { Ok(()) } else { writer.write_all(b", ") }
-    }
-
-    fn begin_object_value<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
-        writer.write_all(b": ")
-    }
-}
-
-fn quoted(text: &str) -> String {
-    Plain::from(text).to_string()
-}
-
-fn numbers(numbers: &[f32]) -> String {
-    let items: Vec<String> = numbers.iter().map(|x| number(*x)).collect();
-    format!("[{}]", items.join(", "))
-}
-
-/// The shortest digits that read back as the same number. JSON has no infinities: they, and NaN, are written as texts, so that an
-/// unsound document survives saving and `check` still sees it.
-fn number(x: f32) -> String {
-    if x.is_nan() {
-        return "\"nan\"".into();
-    }
-    if x.is_infinite() {
-        return if x > 0.0 { "\"inf\"".into() } else { "\"-inf\"".into() };
-    }
-    let magnitude = x.abs();
-    if magnitude == 0.0 || (1e-6..1e9).contains(&magnitude) { format!("{x}") } else { format!("{x:e}") }
 }

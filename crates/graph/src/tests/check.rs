@@ -24,7 +24,7 @@ fn one(document: &Document, severity: Severity, place: &str, part: &str) {
 
 fn set(document: &mut Document, input: &str, value: Value) {
     let input = socket(input);
-    document.nodes.get_mut(&input.node).expect("a node").values.insert(input.socket, value);
+    document.graph.nodes.get_mut(&input.node).expect("a node").values.insert(input.socket, value);
 }
 
 fn picture(file: &str) -> Value {
@@ -39,7 +39,7 @@ fn sound() -> Document {
         &[("rust.color", "surface.base_color"), ("m.out", "surface.perceptual_roughness")],
     );
     set(&mut document, "rust.image", picture("rust.png"));
-    document.nodes.get_mut("rust").expect("rust").label = Some("錆".into());
+    document.graph.nodes.get_mut("rust").expect("rust").label = Some("錆".into());
     document
 }
 
@@ -48,22 +48,22 @@ fn a_sound_document_has_no_problems() {
     assert_eq!(told(&sound()), []);
     assert_eq!(told(&Document::with_surface("plain")), []);
     assert_eq!(surface_node(&sound(), small()), Some("surface"));
-    assert_eq!(node_label(&sound(), small(), "m"), "Mix");
+    assert_eq!(node_label(&sound().graph, small(), "m"), "Mix");
 }
 
 #[test]
 fn definitions_and_names() {
     let mut d = sound();
-    d.nodes.get_mut("m").expect("m").node = "math/lerp".into();
+    d.graph.nodes.get_mut("m").expect("m").node = "math/lerp".into();
     one(&d, Severity::Error, "m", "did you mean `math/mix`?");
-    d.nodes.get_mut("m").expect("m").node = "math/mixx".into();
+    d.graph.nodes.get_mut("m").expect("m").node = "math/mixx".into();
     one(&d, Severity::Error, "m", "did you mean `math/mix`?");
     let mut d = sound();
-    let node = d.nodes["m"].clone();
-    d.nodes.insert("9 lives".into(), node);
+    let node = d.graph.nodes["m"].clone();
+    d.graph.nodes.insert("9 lives".into(), node);
     one(&d, Severity::Error, "9 lives", "no name");
     let mut d = sound();
-    d.nodes.get_mut("m").expect("m").label = Some("a\nb".into());
+    d.graph.nodes.get_mut("m").expect("m").label = Some("a\nb".into());
     one(&d, Severity::Warning, "m", "line breaks");
     assert!(told(&d)[0].to_string().starts_with("warning: \u{201c}a b\u{201d} (m): "), "{}", told(&d)[0]);
 }
@@ -89,7 +89,7 @@ fn surfaces() {
 fn links() {
     let with = |from: &str, to: &str| {
         let mut d = sound();
-        d.links.push(link(from, to));
+        d.graph.links.push(link(from, to));
         d
     };
     one(&with("m.out", "surface.base_color"), Severity::Error, "surface.base_color", "two links");
@@ -103,7 +103,7 @@ fn links() {
     one(&with("surface.out", "m.a"), Severity::Error, "m.a", "the end of the material");
     one(&with("m.out", "rust.image"), Severity::Error, "rust.image", "set on the node, not linked");
     let mut d = with("rust.color", "m.a");
-    d.links.push(link("rust.rgba", "m.b"));
+    d.graph.links.push(link("rust.rgba", "m.b"));
     one(&d, Severity::Error, "m.a", "link its output `rgba` instead");
     one(&d, Severity::Error, "surface.perceptual_roughness", "components would be lost");
     let nodes = [("c", "vector/combine"), ("s", "vector/separate"), ("m", "math/mix"), ("e", "vector/extend")];
@@ -122,7 +122,7 @@ fn rings_name_their_nodes() {
     let nodes = [("a", "math/mix"), ("b", "math/mix"), ("c", "math/mix")];
     let links = [("a.out", "b.a"), ("b.out", "c.a"), ("c.out", "a.a"), ("c.out", "surface.height")];
     let mut d = document(&nodes, &links);
-    d.nodes.get_mut("b").expect("b").label = Some("Bee".into());
+    d.graph.nodes.get_mut("b").expect("b").label = Some("Bee".into());
     one(
         &d,
         Severity::Error,
@@ -162,9 +162,9 @@ fn values() {
     );
     assert_eq!(told(&with("surface.base_color", Value::Number(0.5))), [], "one number is spread");
     let mut d = sound();
-    d.nodes.get_mut("rust").expect("rust").values.clear();
+    d.graph.nodes.get_mut("rust").expect("rust").values.clear();
     one(&d, Severity::Error, "rust.image", "no picture is chosen");
-    d.links.remove(0);
+    d.graph.links.remove(0);
     one(&d, Severity::Warning, "rust.image", "no picture is chosen");
     let mut d = document(&[("s", "vector/select")], &[("s.out", "surface.height")]);
     set(&mut d, "s.n", Value::Number(1.5));
@@ -196,7 +196,7 @@ fn parameters() {
         one(&with(&[parameter]), Severity::Error, "", "range of the parameter `h`");
     }
     let mut d = with(&[parameter("t", "m.t")]);
-    d.links.pop();
+    d.graph.links.pop();
     one(&d, Severity::Warning, "m.t", "has no effect");
 }
 
@@ -205,7 +205,7 @@ fn the_vertex_stage() {
     let nodes = [("slope", "textures/slope"), ("rust", "textures/image"), ("split", "vector/separate")];
     let mut d = document(&nodes[..1], &[("slope.out", "surface.height")]);
     one(&d, Severity::Error, "slope", "fragment stage only");
-    d.links[0] = link("slope.out", "surface.perceptual_roughness");
+    d.graph.links[0] = link("slope.out", "surface.perceptual_roughness");
     assert_eq!(told(&d), [], "the fragment stage has derivatives");
     let mut d = document(&nodes[1..2], &[("rust.color", "surface.height")]);
     set(&mut d, "rust.image", picture("a.png"));

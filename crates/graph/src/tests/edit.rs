@@ -27,8 +27,28 @@ fn any_edit() -> impl Strategy<Value = Edit> {
         (any_id(), prop::option::of([any_number(), any_number()]))
             .prop_map(|(id, position)| Edit::MoveNode { id, position }),
         ".{0,3}".prop_map(|name| Edit::SetName { name }),
+    ]
+    .boxed();
+    let of_view = prop_oneof![
+        ("[ab]", any_frame()).prop_map(|(id, frame)| Edit::AddFrame { id, frame }),
+        "[ab]".prop_map(|id| Edit::RemoveFrame { id }),
+        ("[ab]", any_frame()).prop_map(|(id, frame)| Edit::SetFrame { id, frame }),
+        ("[ab]", any_comment()).prop_map(|(id, comment)| Edit::AddComment { id, comment }),
+        "[ab]".prop_map(|id| Edit::RemoveComment { id }),
+        ("[ab]", any_comment()).prop_map(|(id, comment)| Edit::SetComment { id, comment }),
     ];
-    single.prop_recursive(2, 6, 3, |edit| prop::collection::vec(edit, 0..3).prop_map(Edit::Many))
+    let of_groups = prop_oneof![
+        ("[gh]", any_group()).prop_map(|(id, group)| Edit::AddGroup { id, group: Box::new(group) }),
+        "[gh]".prop_map(|id| Edit::RemoveGroup { id }),
+        ("[gh]", any_interface()).prop_map(|(group, interface)| Edit::SetInterface { group, interface }),
+    ];
+    let any = prop_oneof![4 => single, 1 => of_view, 1 => of_groups];
+    any.prop_recursive(3, 8, 3, |edit| {
+        prop_oneof![
+            prop::collection::vec(edit.clone(), 0..3).prop_map(Edit::Many),
+            ("[gh]", edit).prop_map(|(group, edit)| Edit::In { group, edit: Box::new(edit) }),
+        ]
+    })
 }
 
 proptest! {
@@ -65,11 +85,11 @@ fn removing_a_node_takes_what_hangs_on_it() {
         &[("m.out", "n.a"), ("n.out", "surface.height"), ("m.out", "n.b")],
     );
     d.parameters.push(Parameter { name: "t".into(), label: None, socket: socket("m.t"), range: None });
-    d.layout.insert("m".into(), [1.0, 2.0]);
+    d.graph.layout.insert("m".into(), [1.0, 2.0]);
     let before = d.clone();
     let inverse = apply(&mut d, &Edit::RemoveNode { id: "m".into() }).expect("an edit");
-    assert_eq!(d.links, [link("n.out", "surface.height")]);
-    assert!(d.parameters.is_empty() && d.layout.is_empty() && !d.nodes.contains_key("m"));
+    assert_eq!(d.graph.links, [link("n.out", "surface.height")]);
+    assert!(d.parameters.is_empty() && d.graph.layout.is_empty() && !d.graph.nodes.contains_key("m"));
     apply(&mut d, &inverse).expect("an inverse");
     assert_eq!(d, before);
 }
@@ -78,9 +98,9 @@ fn removing_a_node_takes_what_hangs_on_it() {
 fn a_new_link_takes_the_place_of_the_old_one() {
     let mut d = document(&[("m", "math/mix"), ("n", "math/mix")], &[("m.out", "surface.height"), ("n.out", "m.a")]);
     let inverse = apply(&mut d, &Edit::AddLink { link: link("n.out", "surface.height") }).expect("an edit");
-    assert_eq!(d.links, [link("n.out", "surface.height"), link("n.out", "m.a")]);
+    assert_eq!(d.graph.links, [link("n.out", "surface.height"), link("n.out", "m.a")]);
     apply(&mut d, &inverse).expect("an inverse");
-    assert_eq!(d.links[0], link("m.out", "surface.height"));
+    assert_eq!(d.graph.links[0], link("m.out", "surface.height"));
     let refused = apply(&mut d, &Edit::AddLink { link: link("gone.out", "surface.height") });
     assert_eq!(refused, Err(EditError::NoNode("gone".into())));
 }
@@ -89,10 +109,33 @@ fn a_new_link_takes_the_place_of_the_old_one() {
 fn renaming_carries_links_parameters_and_position() {
     let mut d = document(&[("m", "math/mix")], &[("m.out", "surface.height")]);
     d.parameters.push(Parameter { name: "t".into(), label: None, socket: socket("m.t"), range: None });
-    d.layout.insert("m".into(), [1.0, 2.0]);
+    d.graph.layout.insert("m".into(), [1.0, 2.0]);
     let rename = |id: &str, to: &str| Edit::RenameNode { id: id.into(), to: to.into() };
     apply(&mut d, &rename("m", "blend")).expect("an edit");
-    assert_eq!((d.links[0].from.node.as_str(), d.parameters[0].socket.node.as_str()), ("blend", "blend"));
-    assert!(d.layout.contains_key("blend"));
+    assert_eq!((d.graph.links[0].from.node.as_str(), d.parameters[0].socket.node.as_str()), ("blend", "blend"));
+    assert!(d.graph.layout.contains_key("blend"));
     assert_eq!(apply(&mut d, &rename("blend", "surface")), Err(EditError::Taken("surface".into())));
+}
+
+#[test]
+fn a_group_is_edited_like_the_top_level() {
+    let mut d = document(&[("a", "group/band"), ("b", "group/band")], &[]);
+    let inside = |edit| Edit::In { group: "band".into(), edit: Box::new(edit) };
+    let add = Edit::AddGroup { id: "band".into(), group: Box::new(Group::new("Band")) };
+    apply(&mut d, &add).expect("a group");
+    let before = to_json(&d);
+    let edits = Edit::Many(vec![
+        Edit::AddNode { id: "m".into(), node: Node::new("math/mix") },
+        Edit::MoveNode { id: "m".into(), position: Some([1.0, 2.0]) },
+        Edit::AddLink { link: link("m.out", "output.out") },
+        Edit::AddFrame { id: "f".into(), frame: Frame::default() },
+    ]);
+    let undo = apply(&mut d, &inside(edits)).expect("edits of its inside");
+    assert_eq!((d.groups["band"].graph.nodes.len(), d.graph.nodes.len()), (2, 3));
+    let settings = inside(Edit::SetName { name: "x".into() });
+    assert_eq!(apply(&mut d, &settings), Err(EditError::OfDocument("name of the material")));
+    let other = Edit::In { group: "gone".into(), edit: Box::new(Edit::RemoveNode { id: "m".into() }) };
+    assert_eq!(apply(&mut d, &other), Err(EditError::NoGroup("gone".into())));
+    apply(&mut d, &undo).expect("an inverse");
+    assert_eq!(to_json(&d), before);
 }

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 
-use super::{any_document, document};
-use crate::document::{Document, Node};
+use super::{any_document, document, link};
+use crate::document::{Document, Node, Rect};
 use crate::file::{FileError, from_json, load, replace, save, to_json};
 use crate::value::Value;
 
@@ -24,11 +24,52 @@ const RUST: &str = r##"{
     {"name": "ior", "socket": "surface.ior"}
   ],
   "surface": {"alpha_mode": "mask", "alpha_cutoff": 0.25, "double_sided": false, "shadow": "none"},
+  "groups": {
+    "band": {
+      "label": "Band 帯",
+      "help": "Two\nlines.",
+      "inputs": [
+        {"name": "x", "type": "f32", "label": "X", "default": 0.5, "range": [0, 1], "help": "where", "folded": true},
+        {"name": "uv", "type": "vec2f", "context": "uv0"},
+        {"name": "tint", "type": "vec3f", "default": [1, 0, 0], "unit": "color"},
+        {"name": "picture", "type": "texture", "color_space": "linear"}
+      ],
+      "outputs": [
+        {"name": "out", "type": "f32", "help": "the band", "folded": true}
+      ],
+      "nodes": {
+        "in": {"node": "group/input"},
+        "output": {"node": "group/output", "values": {"out": 1}}
+      },
+      "links": [
+        {"from": "in.x", "to": "output.out"}
+      ],
+      "layout": {
+        "in": [0, 1]
+      },
+      "frames": {
+        "f": {"title": "", "rect": [0, 0, 10, 10]}
+      },
+      "author": "x"
+    },
+    "empty": {
+      "inputs": [],
+      "outputs": [],
+      "nodes": {},
+      "links": []
+    }
+  },
   "layout": {
     "mask": [-10, 0.5],
     "rust": [0, 0]
   },
-  "frames": [{"title": "weathering"}]
+  "frames": {
+    "f1": {"title": "weathering 風", "color": "#0a80ff", "rect": [-20, 0.5, 300, 200], "folded": true}
+  },
+  "comments": {
+    "c1": {"text": "see\nthe photo", "rect": [0, 0, 120, 40], "pinned": false}
+  },
+  "colours": [{"title": "weathering"}]
 }
 "##;
 
@@ -50,9 +91,17 @@ const NEWER: &str = r#"{
     {"name": "metallic", "socket": "surface.metallic", "range": {"curve": 2}}
   ],
   "surface": {"alpha_mode": "hashed", "alpha_cutoff": 0.5, "double_sided": true},
+  "groups": {
+    "later": {"wasm": "AGFzbQ"}
+  },
   "layout": {
     "group": {"x": 1},
     "rust": [1, 2]
+  },
+  "frames": [1, 2],
+  "comments": {
+    "a": {"svg": []},
+    "b": {"text": {"de": "ja"}, "rect": [0, 0, 1, 1]}
   }
 }
 "#;
@@ -64,15 +113,21 @@ fn files_come_back_as_they_were() {
         assert_eq!(to_json(&document), text);
     }
     let d = from_json(RUST).unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!((d.nodes.len(), d.links.len(), d.parameters.len(), d.layout.len()), (3, 2, 2, 2));
-    assert_eq!(d.nodes["rust"].values["tint"], Value::Vec3([1.0, 0.5, 1e-8]));
+    assert_eq!((d.graph.nodes.len(), d.graph.links.len(), d.parameters.len(), d.graph.layout.len()), (3, 2, 2, 2));
+    assert_eq!(d.graph.frames["f1"].color, Some([10, 128, 255]));
+    assert_eq!(d.graph.frames["f1"].rect, Rect { position: [-20.0, 0.5], size: [300.0, 200.0] });
+    assert_eq!(d.graph.comments["c1"].text, "see\nthe photo");
+    let band = &d.groups["band"];
+    assert_eq!((band.interface.inputs.len(), band.interface.outputs[0].name.as_str()), (4, "out"));
+    assert_eq!(band.graph.links, [link("in.x", "output.out")]);
+    assert_eq!(d.graph.nodes["rust"].values["tint"], Value::Vec3([1.0, 0.5, 1e-8]));
     assert_eq!(from_json(NEWER).unwrap_or_else(|e| panic!("{e}")).version, 3);
 }
 
 #[test]
 fn what_is_kept_goes_with_what_it_belongs_to() {
     let mut d = from_json(RUST).unwrap_or_else(|e| panic!("{e}"));
-    d.links.pop();
+    d.graph.links.pop();
     d.parameters.remove(0);
     let text = to_json(&d);
     assert!(!text.contains("curved") && !text.contains("hidden") && text.contains("shadow"), "{text}");
@@ -91,7 +146,7 @@ fn a_plain_document_is_short() {
 fn moving_one_node_changes_one_line() {
     let before = from_json(RUST).unwrap_or_else(|e| panic!("{e}"));
     let mut after = before.clone();
-    after.layout.insert("rust".into(), [3.0, 4.0]);
+    after.graph.layout.insert("rust".into(), [3.0, 4.0]);
     let (before, after) = (to_json(&before), to_json(&after));
     assert_eq!(before.lines().zip(after.lines()).filter(|(a, b)| a != b).count(), 1);
 }
@@ -118,6 +173,11 @@ fn errors_name_line_column_and_remedy() {
         ("\"range\": [0, 1]", "\"range\": [0]", "at parameters[0].range: two numbers are needed"),
         ("\"mask\", \"alpha_cutoff\"", "\"cut\", \"alpha_cutoff\"", "at surface.alpha_mode: \"cut\" is none of"),
         ("\"nodes\"", "\"nodez\"", "the field `nodes` is missing"),
+        ("#0a80ff", "blue", "at frames.f1.color: \"blue\" is no colour; write it as \"#rrggbb\""),
+        ("[0, 0, 120, 40]", "[0, 0]", "at comments.c1.rect: four numbers are needed"),
+        ("\"type\": \"vec2f\"", "\"type\": \"mat3\"", "at groups.band.inputs[1].type: \"mat3\" is none of"),
+        ("\"in.x\"", "\"x\"", "at groups.band.links[0].from: \"x\" names no socket"),
+        ("\"nodes\": {},", "", "at groups.empty: the group's field `nodes` is missing"),
         ("  ],\n  \"parameters\"", "  \"parameters\"", "a , or ] is missing: `\"` stands here"),
     ];
     for (old, new, part) in cases {
@@ -137,7 +197,7 @@ proptest! {
         let text = to_json(&document);
         let back = from_json(&text).map_err(|e| TestCaseError::fail(format!("{e}\n{text}")))?;
         prop_assert_eq!(to_json(&back), text);
-        prop_assert_eq!(back.links, document.links);
+        prop_assert_eq!(back.graph.links, document.graph.links);
     }
 
     #[test]
@@ -176,7 +236,7 @@ fn saving_replaces_the_file_in_one_step() -> Result<(), Box<dyn std::error::Erro
     save(&path, &first)?;
     assert_eq!(load(&path)?, first);
     let mut second = first.clone();
-    second.nodes.insert("n".into(), Node::new("math/mix"));
+    second.graph.nodes.insert("n".into(), Node::new("math/mix"));
     save(&path, &second)?;
     assert_eq!(load(&path)?, second);
     assert_eq!(std::fs::read_dir(folder.path())?.count(), 1, "no temporary file is left");

@@ -28,12 +28,12 @@ fn timed<R: Send>(what: &str, work: impl FnOnce() -> R + Send) -> R {
 fn chain(count: usize) -> Document {
     let mut d = document(&[], &[]);
     for i in 0..count {
-        d.nodes.insert(format!("n{i}"), Node::new("math/mix"));
+        d.graph.nodes.insert(format!("n{i}"), Node::new("math/mix"));
         if i > 0 {
-            d.links.push(link(&format!("n{}.out", i - 1), &format!("n{i}.a")));
+            d.graph.links.push(link(&format!("n{}.out", i - 1), &format!("n{i}.a")));
         }
     }
-    d.links.push(link(&format!("n{}.out", count - 1), "surface.height"));
+    d.graph.links.push(link(&format!("n{}.out", count - 1), "surface.height"));
     d
 }
 
@@ -41,7 +41,7 @@ fn chain(count: usize) -> Document {
 fn a_deep_chain_is_checked_and_ordered() {
     let d = chain(10_000);
     assert_eq!(timed("checking a chain of 10,000", || check(&d, small())), []);
-    let wiring = Wiring::new(&d);
+    let wiring = Wiring::new(&d.graph);
     let order = timed("ordering it", || wiring.order(&["surface"])).expect("no ring");
     assert_eq!(order.len(), 10_001);
     assert_eq!((order[0], order[9_999], order[10_000]), ("n0", "n9999", "surface"));
@@ -61,15 +61,17 @@ fn a_wide_graph_and_its_file() {
 #[test]
 fn rings_are_found() {
     let mut d = chain(50_000);
-    d.links.push(link("n49999.out", "n0.a"));
+    d.graph.links.push(link("n49999.out", "n0.a"));
     let problems = timed("checking a ring of 50,000", || check(&d, small()));
     assert!(problems.iter().any(|p| p.message.contains("49992 more")), "{problems:?}");
     // Many small rings.
     let mut d = chain(2);
     for i in 0..25_000 {
         let (a, b) = (format!("a{i}"), format!("b{i}"));
-        d.nodes.extend([(a.clone(), Node::new("math/mix")), (b.clone(), Node::new("math/mix"))]);
-        d.links.extend([link(&format!("{a}.out"), &format!("{b}.a")), link(&format!("{b}.out"), &format!("{a}.a"))]);
+        d.graph.nodes.extend([(a.clone(), Node::new("math/mix")), (b.clone(), Node::new("math/mix"))]);
+        d.graph
+            .links
+            .extend([link(&format!("{a}.out"), &format!("{b}.a")), link(&format!("{b}.out"), &format!("{a}.a"))]);
     }
     let problems = timed("checking 25,000 rings", || check(&d, small()));
     assert_eq!(problems.iter().filter(|p| p.message.contains("in a ring")).count(), 25_000);
@@ -79,8 +81,8 @@ fn rings_are_found() {
 fn a_hub_is_removed_and_restored() {
     let mut d = chain(2);
     for i in 0..50_000 {
-        d.nodes.insert(format!("x{i}"), Node::new("math/mix"));
-        d.links.push(link("n0.out", &format!("x{i}.a")));
+        d.graph.nodes.insert(format!("x{i}"), Node::new("math/mix"));
+        d.graph.links.push(link("n0.out", &format!("x{i}.a")));
     }
     let before = d.clone();
     let inverse = timed("removing a hub", || apply(&mut d, &Edit::RemoveNode { id: "n0".into() })).expect("an edit");
@@ -91,6 +93,6 @@ fn a_hub_is_removed_and_restored() {
 #[test]
 fn unknown_nodes_in_number_are_told_quickly() {
     let mut d = document(&[], &[]);
-    d.nodes.extend((0..100_000).map(|i| (format!("n{i}"), Node::new(&format!("math/mux{i}")))));
+    d.graph.nodes.extend((0..100_000).map(|i| (format!("n{i}"), Node::new(&format!("math/mux{i}")))));
     assert!(timed("checking 100,000 unknown nodes", || check(&d, small())).len() >= 100_000);
 }

@@ -7,9 +7,9 @@ use crate::value::{SocketType, Type, Value};
 fn mix_type(nodes: &[(&str, &str)], links: &[(&str, &str)], values: &[(&str, Value)]) -> Type {
     let mut document = document(nodes, links);
     for (input, value) in values {
-        document.nodes.get_mut("m").expect("m").values.insert(input.to_string(), value.clone());
+        document.graph.nodes.get_mut("m").expect("m").values.insert(input.to_string(), value.clone());
     }
-    let types = resolve_types(&document, small());
+    let types = resolve_types(&document.graph, small());
     let types = types.get("m").expect("types of m");
     assert_eq!(types.output("out"), types.input("a"));
     assert_eq!(types.input("t"), Some(SocketType::Value(Type::F32)));

@@ -201,7 +201,7 @@ fn has_source(document: &Document, node: &NodeId, of: &BTreeSet<NodeId>) -> bool
     let mut open = vec![node];
     let mut seen = BTreeSet::new();
     while let Some(at) = open.pop() {
-        for link in document.links.iter().filter(|link| link.to.node == *at) {
+        for link in document.graph.links.iter().filter(|link| link.to.node == *at) {
             if of.contains(&link.from.node) {
                 return true;
             }

@@ -74,7 +74,7 @@ impl<'d> Trace<'d> {
         let mut values = Vec::new();
         let mut group = 0;
         for Named { node, outputs } in &named {
-            let label = node_label(document, Library::standard(), node);
+            let label = node_label(&document.graph, Library::standard(), node);
             for (output, _, components) in outputs {
                 for component in 0..*components {
                     let output = if *components == 1 {

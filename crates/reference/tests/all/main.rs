@@ -35,7 +35,7 @@ fn is_full() -> bool {
 /// A plain material on a built-in shape, single scattering, without an interface over the diffuse base.
 fn scene(shape: BuiltinMesh, values: &[(&str, Value)], methods: &[(&str, &str)]) -> Scene {
     let mut document = Document::with_surface("test");
-    let node = document.nodes.get_mut("surface").expect("the surface");
+    let node = document.graph.nodes.get_mut("surface").expect("the surface");
     node.values.extend(values.iter().map(|(name, value)| ((*name).to_owned(), value.clone())));
     let mut scene =
         Scene::from_material(document, std::path::Path::new(""), &MeshSource::Builtin(shape)).expect("sound");

@@ -62,7 +62,7 @@ fn lights_and_their_shadows() {
     // What is blended lets through what it does not cover.
     let mut veil = scene.materials[0].clone();
     veil.document.surface.alpha_mode = halfvector_graph::document::AlphaMode::Blend;
-    let node = veil.document.nodes.get_mut("surface").expect("the surface");
+    let node = veil.document.graph.nodes.get_mut("surface").expect("the surface");
     node.values.insert("opacity".into(), number(0.25));
     scene.objects[1].material = scene.materials.len();
     scene.materials.push(veil);

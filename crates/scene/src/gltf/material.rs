@@ -280,7 +280,7 @@ impl Builder<'_> {
     }
 
     fn set(&mut self, input: &str, value: Value) {
-        if let Some(surface) = self.document.nodes.get_mut("surface") {
+        if let Some(surface) = self.document.graph.nodes.get_mut("surface") {
             surface.values.insert(input.to_owned(), value);
         }
     }
@@ -295,13 +295,13 @@ impl Builder<'_> {
     ) -> String {
         let values = values.into_iter().map(|(socket, value)| (socket.to_owned(), value)).collect();
         let node = Node { node: definition.to_owned(), label, values, unknown: Default::default() };
-        self.document.nodes.insert(name.to_owned(), node);
+        self.document.graph.nodes.insert(name.to_owned(), node);
         name.to_owned()
     }
 
     fn link(&mut self, from: &str, output: &str, to: &str, input: &str) {
         let socket = |node: &str, socket: &str| SocketRef { node: node.to_owned(), socket: socket.to_owned() };
-        self.document.links.push(Link { from: socket(from, output), to: socket(to, input) });
+        self.document.graph.links.push(Link { from: socket(from, output), to: socket(to, input) });
     }
 }
 

@@ -37,8 +37,12 @@ fn materials_are_sound_and_in_the_programs_layout() {
         assert!(problems.is_empty(), "{}: {problems:?}", path.display());
         let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(file::to_json(&document), text, "{}", path.display());
-        for node in document.nodes.keys() {
-            assert!(document.layout.contains_key(node), "{}: `{node}` has no place on the canvas", path.display());
+        for node in document.graph.nodes.keys() {
+            assert!(
+                document.graph.layout.contains_key(node),
+                "{}: `{node}` has no place on the canvas",
+                path.display()
+            );
         }
     }
 }
@@ -76,7 +80,7 @@ fn the_surface_example_offers_every_input_that_can_be_a_number() {
 #[test]
 fn the_reports_scenes_say_what_the_report_says() {
     let value = |scene: &Scene, socket: &str| {
-        scene.materials[scene.objects[0].material].document.nodes["surface"].values[socket].clone()
+        scene.materials[scene.objects[0].material].document.graph.nodes["surface"].values[socket].clone()
     };
     let near = |value: Value, expected: &[f32]| {
         let there = value.components().unwrap().to_vec();
@@ -103,7 +107,7 @@ fn the_reports_scenes_say_what_the_report_says() {
     assert!(scene("report-5-textured").images.images().len() >= 4);
     let height = scene("report-6-height");
     let document = &height.materials[height.objects[0].material].document;
-    assert!(document.links.iter().any(|l| l.to.node == "surface" && l.to.socket == "height"));
+    assert!(document.graph.links.iter().any(|l| l.to.node == "surface" && l.to.socket == "height"));
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn document(material: Json, change: impl FnOnce(&mut Builder)) -> Document {
 
 fn links(document: &Document) -> Vec<String> {
     let text = |s: &halfvector_graph::document::SocketRef| format!("{}.{}", s.node, s.socket);
-    document.links.iter().map(|l| format!("{} -> {}", text(&l.from), text(&l.to))).collect()
+    document.graph.links.iter().map(|l| format!("{} -> {}", text(&l.from), text(&l.to))).collect()
 }
 
 #[test]
@@ -47,8 +47,8 @@ fn factors_alone_make_one_node() {
         |_| {},
     );
     assert_eq!(document.name, "Plain");
-    assert_eq!(document.nodes.len(), 1);
-    let values = &document.nodes["surface"].values;
+    assert_eq!(document.graph.nodes.len(), 1);
+    let values = &document.graph.nodes["surface"].values;
     assert_eq!(values["base_color"], Value::Vec3([0.1, 0.2, 0.3]));
     assert_eq!(values["opacity"], Value::Number(0.4));
     assert_eq!(values["metallic"], Value::Number(0.5));
@@ -63,7 +63,7 @@ fn factors_alone_make_one_node() {
 #[test]
 fn defaults_are_gltfs() {
     let document = document(json!({}), |_| {});
-    let values = &document.nodes["surface"].values;
+    let values = &document.graph.nodes["surface"].values;
     assert_eq!(values["base_color"], Value::Vec3([1.0; 3]));
     assert_eq!((&values["metallic"], &values["perceptual_roughness"]), (&Value::Number(1.0), &Value::Number(1.0)));
     assert_eq!(values.len(), 3, "nothing that costs without need");
@@ -99,7 +99,7 @@ fn maps_are_wired_with_their_channels() {
             "emission_factor.out -> surface.emission",
         ]
     );
-    let image = |node: &str| match &document.nodes[node].values["image"] {
+    let image = |node: &str| match &document.graph.nodes[node].values["image"] {
         Value::Image(image) => image.clone(),
         other => panic!("{other:?}"),
     };
@@ -110,9 +110,9 @@ fn maps_are_wired_with_their_channels() {
         (image("normal_map").file.as_str(), image("normal_map").color_space),
         ("sub/bumps.png", ColorSpace::Linear)
     );
-    assert_eq!(document.nodes["normal"].values["strength"], Value::Number(0.8));
-    assert_eq!(document.nodes["occlusion"].values["t"], Value::Number(0.25));
-    assert_eq!(document.nodes["normal_map"].label.as_deref(), Some("bumps"));
+    assert_eq!(document.graph.nodes["normal"].values["strength"], Value::Number(0.8));
+    assert_eq!(document.graph.nodes["occlusion"].values["t"], Value::Number(0.25));
+    assert_eq!(document.graph.nodes["normal_map"].label.as_deref(), Some("bumps"));
 }
 
 #[test]
@@ -144,9 +144,9 @@ fn samplers_sets_and_transforms_are_kept() {
             add(builder, "textures", json!({"source": 0, "sampler": 0}));
         },
     );
-    let Value::Image(image) = &document.nodes["base_color_map"].values["image"] else { panic!("an image") };
+    let Value::Image(image) = &document.graph.nodes["base_color_map"].values["image"] else { panic!("an image") };
     assert_eq!((image.wrap_u, image.wrap_v, image.filter), (Wrap::Clamp, Wrap::Mirror, Filter::Nearest));
-    let moved = &document.nodes["base_color_map_transform"];
+    let moved = &document.graph.nodes["base_color_map_transform"];
     assert_eq!(moved.node, "coordinates/uv_transform");
     assert_eq!(moved.values["offset"], Value::Vec2([0.25, 0.5]));
     assert_eq!(moved.values["rotation"], Value::Number(90.0));
@@ -169,7 +169,7 @@ fn images_within_the_file_have_numbers() {
         let image = add(builder, "images", json!({"bufferView": view, "mimeType": "image/png"}));
         add(builder, "textures", json!({"source": image}));
     });
-    let Value::Image(image) = &document.nodes["base_color_map"].values["image"] else { panic!("an image") };
+    let Value::Image(image) = &document.graph.nodes["base_color_map"].values["image"] else { panic!("an image") };
     assert_eq!(image.file, "model.glb#3");
 }
 

@@ -37,7 +37,7 @@ fn profiles_are_applied_or_told() {
     let mut images = ImageStore::default();
     images.load(std::slice::from_ref(&material)).unwrap();
     let value = |node: &str| {
-        let halfvector_graph::value::Value::Image(image) = &material.document.nodes[node].values["image"] else {
+        let halfvector_graph::value::Value::Image(image) = &material.document.graph.nodes[node].values["image"] else {
             panic!("an image")
         };
         (images.get(folder.path(), image).unwrap().texel(0, 0)[0] * 255.0).round()

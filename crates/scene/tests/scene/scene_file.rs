@@ -94,11 +94,11 @@ fn everything_that_is_said_comes_through() {
     let names: Vec<_> = scene.objects.iter().map(|o| o.name.as_str()).collect();
     assert_eq!(names, ["ball.ball", "ball.core", "ball.stand", "thing"]);
     let material = |object: usize| &scene.materials[scene.objects[object].material].document;
-    assert_eq!(material(0).nodes["surface"].values["metallic"], Value::Number(1.0));
-    assert_eq!(material(0).nodes["surface"].values["base_color"], Value::Vec3([0.1, 0.2, 0.3]));
+    assert_eq!(material(0).graph.nodes["surface"].values["metallic"], Value::Number(1.0));
+    assert_eq!(material(0).graph.nodes["surface"].values["base_color"], Value::Vec3([0.1, 0.2, 0.3]));
     assert_eq!(material(1).name, "Neutral grey");
     assert_eq!(
-        (material(2).name.as_str(), &material(2).nodes["surface"].values["metallic"]),
+        (material(2).name.as_str(), &material(2).graph.nodes["surface"].values["metallic"]),
         ("Plain", &Value::Number(0.0))
     );
     assert_eq!(material(3).name, "Plain", "Steel is replaced");
@@ -241,7 +241,7 @@ fn images_are_found_shared_and_missed_by_name() {
     std::fs::write(&path, material("maps/a.png", "./maps/../maps/a.png")).unwrap();
     let scene = load_text(folder.path(), &with_sphere("")).unwrap();
     assert_eq!(scene.images.images().len(), 1, "the same file twice is one picture");
-    let Value::Image(reference) = &scene.materials[0].document.nodes["second"].values["image"] else {
+    let Value::Image(reference) = &scene.materials[0].document.graph.nodes["second"].values["image"] else {
         panic!("an image")
     };
     let found = scene.images.get(&scene.materials[0].directory, reference).unwrap();
