@@ -4,6 +4,7 @@
 mod bake;
 mod device;
 mod docs;
+mod editor;
 mod golden;
 mod images;
 mod interp;

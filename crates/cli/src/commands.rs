@@ -3,6 +3,7 @@
 pub(crate) mod bake;
 pub(crate) mod check;
 pub(crate) mod compare;
+pub(crate) mod edit;
 pub(crate) mod export;
 pub(crate) mod first_light;
 pub(crate) mod methods;

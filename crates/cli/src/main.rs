@@ -15,11 +15,11 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{bake, check, compare, export, first_light, methods, nodes, render, report};
+use crate::commands::{bake, check, compare, edit, export, methods, nodes, render, report};
 
 /// Materials as node graphs: draw them, take their shaders, check them.
 ///
-/// Without a command it draws an embedded example and writes the picture and its WGSL to the folder out/.
+/// Without a command it opens the editor; with no display it draws an embedded example to the folder out/ instead.
 #[derive(Parser, Debug)]
 #[command(
     name = "halfvector",
@@ -40,6 +40,7 @@ enum Command {
     Export(export::ExportArgs),
     Check(check::CheckArgs),
     Compare(compare::CompareArgs),
+    Edit(edit::EditArgs),
     Bake(Box<bake::BakeArgs>),
     Nodes(nodes::NodesArgs),
     Methods(methods::MethodsArgs),
@@ -49,11 +50,12 @@ enum Command {
 fn main() -> ExitCode {
     let cli = Cli::parse();
     let result = match &cli.command {
-        None => first_light::run(),
+        None => edit::run_or_draw(),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Export(args)) => export::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Compare(args)) => compare::run(args),
+        Some(Command::Edit(args)) => edit::run(args),
         Some(Command::Bake(args)) => bake::run(args),
         Some(Command::Nodes(args)) => nodes::run(args),
         Some(Command::Methods(args)) => methods::run(args),

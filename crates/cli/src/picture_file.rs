@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use halfvector_graph::needs::ToneMap;
-use halfvector_scene::Picture;
-use halfvector_scene::tone_map::tone_mapped;
+use halfvector_scene::{Display, Picture};
 use image::{ExtendedColorType, ImageEncoder};
 
 use crate::failure::Failure;
@@ -28,20 +26,6 @@ pub(crate) enum PictureFormat {
     Exr,
     /// Radiance RGBE, linear, without alpha.
     Hdr,
-}
-
-/// How radiance becomes the 8-bit codes of a PNG.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Display {
-    /// Times a factor, through a tone map, then sRGB.
-    ToneMapped {
-        /// Factor from radiance.
-        exposure: f32,
-        /// After it.
-        tone_map: ToneMap,
-    },
-    /// The picture holds display values already (`encode=report`).
-    AsIs,
 }
 
 /// Reads a file name by its extension.
@@ -77,7 +61,7 @@ fn encoding_failed(path: &Path, error: &image::ImageError) -> Failure {
 
 /// The bytes of a PNG file.
 pub(crate) fn png(picture: &Picture, display: Display) -> Result<Vec<u8>, image::ImageError> {
-    let codes: Vec<u8> = picture.pixels.iter().flat_map(|&pixel| codes(pixel, display)).collect();
+    let codes: Vec<u8> = picture.pixels.iter().flat_map(|&pixel| display.codes(pixel)).collect();
     let mut bytes = Vec::new();
     image::codecs::png::PngEncoder::new(&mut bytes).write_image(
         &codes,
@@ -119,36 +103,9 @@ fn rounded_for_rgbe([r, g, b, _]: [f32; 4]) -> [f32; 3] {
     color.map(|c| c + half_step)
 }
 
-/// The codes of a pixel. PNG has straight alpha: the colour is what lies behind the coverage.
-fn codes([r, g, b, alpha]: [f32; 4], display: Display) -> [u8; 4] {
-    let alpha = alpha.clamp(0.0, 1.0);
-    let straight = if alpha > 0.0 { [r, g, b].map(|c| c / alpha) } else { [0.0; 3] };
-    let [r, g, b] = match display {
-        Display::AsIs => straight,
-        Display::ToneMapped { exposure, tone_map } => {
-            halfvector_maps::color::srgb_from_linear(tone_mapped(tone_map, straight.map(|c| c * exposure)))
-        }
-    };
-    // NaN becomes 0, as `as` does it.
-    [r, g, b, alpha].map(|c| (c.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const PLAIN: Display = Display::ToneMapped { exposure: 1.0, tone_map: ToneMap::None };
-
-    #[test]
-    fn pixels_are_coded_with_straight_alpha() {
-        // A half covered pixel of radiance 0.25: 0.25 is 137 in sRGB.
-        assert_eq!(codes([0.125, 0.125, 0.125, 0.5], PLAIN), [137, 137, 137, 128]);
-        assert_eq!(codes([0.0; 4], PLAIN), [0; 4]);
-        assert_eq!(codes([f32::NAN, 2.0, -1.0, 1.0], PLAIN), [0, 255, 0, 255]);
-        assert_eq!(codes([0.5, 0.25, 0.0, 1.0], Display::AsIs), [128, 64, 0, 255]);
-        let brighter = Display::ToneMapped { exposure: 2.0, tone_map: ToneMap::None };
-        assert_eq!(codes([0.125, 0.125, 0.125, 1.0], brighter), [137, 137, 137, 255]);
-    }
 
     #[test]
     fn formats_are_told_by_the_extension() {

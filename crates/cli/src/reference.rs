@@ -3,12 +3,12 @@
 use std::sync::Mutex;
 
 use halfvector_reference::{Reference, RenderOptions};
-use halfvector_scene::{Picture, Scene};
+use halfvector_scene::{Display, Picture, Scene};
 
 use crate::environment::load;
 use crate::failure::Failure;
 use crate::output::{note, progress};
-use crate::picture_file::{Display, PictureFile, write};
+use crate::picture_file::{PictureFile, write};
 
 /// How it is rendered.
 #[derive(Clone, Copy, Debug)]

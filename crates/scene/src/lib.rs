@@ -9,6 +9,7 @@
 //! Right-handed, +Y up, metres; colours are linear Rec. 709. Nothing is drawn here and no environment is baked.
 
 pub mod camera;
+mod display;
 pub mod environment;
 pub mod file;
 pub mod gltf;
@@ -27,6 +28,7 @@ pub mod tone_map;
 mod view;
 
 pub use camera::Camera;
+pub use display::Display;
 pub use environment::{Background, EnvironmentSource};
 pub use file::load_scene;
 pub use images::ImageStore;

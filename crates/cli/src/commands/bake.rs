@@ -9,13 +9,13 @@ use halfvector_ibl::{
     StoredLobe, save,
 };
 use halfvector_render::Renderer;
-use halfvector_scene::{EnvironmentSource, Picture};
+use halfvector_scene::{Display, EnvironmentSource, Picture};
 
 use crate::environment::{bake_with_bar, ggx_roughness, load};
 use crate::failure::Failure;
 use crate::harmonics_file;
 use crate::output::{check_place, note, progress, write_file};
-use crate::picture_file::{Display, png};
+use crate::picture_file::png;
 use crate::set_value::numbers;
 
 /// Prefilters an environment for real-time light: a cube map whose levels are filtered for a rising roughness.

@@ -1,4 +1,5 @@
-//! `halfvector` without a command: the embedded example as a picture and as a shader, so that a first run shows something.
+//! `halfvector` where no window can be opened: the embedded example as a picture and as a shader, so that a first run shows
+//! something.
 
 use std::path::Path;
 
@@ -13,17 +14,14 @@ use crate::failure::Failure;
 use crate::output::{note, write_file};
 use crate::picture_file::{PictureFile, PictureFormat};
 
-/// The example that is drawn.
-const EXAMPLE: &str = include_str!("../example.material.json");
-
 /// Where the results go.
 const FOLDER: &str = "out";
 
-/// Runs the command.
+/// Draws it.
 pub(crate) fn run() -> Result<u8, Failure> {
-    note("There is no editor yet: an embedded example is drawn to out/. `halfvector --help` lists the commands.");
     let broken = |why: String| Failure::input("the embedded example is broken").because(why);
-    let document = halfvector_graph::file::from_json(EXAMPLE).map_err(|error| broken(error.to_string()))?;
+    let document = halfvector_graph::file::from_json(halfvector_editor::START_MATERIAL)
+        .map_err(|error| broken(error.to_string()))?;
     let folder = Path::new(FOLDER);
     let shader = halfvector_codegen::shader(&document, Library::standard(), &plain_needs(), Fold::Export)
         .map_err(|error| broken(error.to_string()))?;

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::ToneMap;
-use halfvector_scene::{Background, EnvironmentSource, Exposure, Light, MeshSource, Scene};
+use halfvector_scene::{Background, Display, EnvironmentSource, Exposure, Light, MeshSource, Scene};
 
 use crate::backend::{Backend, Painter, Runner, parse_backend};
 use crate::environment::{bake, load};
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{check_place, note};
-use crate::picture_file::{Display, PictureFile, PictureFormat, parse_picture_file, write};
+use crate::picture_file::{PictureFile, PictureFormat, parse_picture_file, write};
 use crate::reference::{self, ReferenceOptions};
 use crate::set_value::{Assignment, numbers, parse_assignment, set};
 

@@ -1,0 +1,50 @@
+//! What a person can do to the session: panes return these, and only [`crate::Session`] and the window carry them out.
+
+use std::path::PathBuf;
+
+use halfvector_graph::document::NodeId;
+use halfvector_graph::edit::Edit;
+
+/// One thing that a person does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Changes the document.
+    Edit {
+        /// What undo calls it, such as "Add Noise".
+        name: String,
+        /// The change.
+        edit: Edit,
+        /// Edits in a row with the same key are one step of undo: a number that is dragged. None for a step of its own.
+        merge: Option<String>,
+    },
+    /// Ends a row of merged edits: the mouse button is up.
+    EndMerge,
+    /// Takes the last step back.
+    Undo,
+    /// Does the last step that was taken back again.
+    Redo,
+    /// Replaces the selection.
+    Select(Vec<NodeId>),
+    /// Selects a node and brings it into view.
+    Show(NodeId),
+    /// Replaces the document by a new one.
+    New,
+    /// Replaces the document by that of a file.
+    Open(PathBuf),
+    /// Writes the document to its file; asks where when it has none.
+    Save,
+    /// Writes the document to this file, which becomes its own.
+    SaveAs(PathBuf),
+}
+
+impl Action {
+    /// An edit that is a step of undo of its own.
+    pub fn edit(name: impl Into<String>, edit: Edit) -> Action {
+        Action::Edit { name: name.into(), edit, merge: None }
+    }
+
+    /// An edit that joins those before it with the same key.
+    pub fn drag(name: impl Into<String>, edit: Edit, key: impl Into<String>) -> Action {
+        Action::Edit { name: name.into(), edit, merge: Some(key.into()) }
+    }
+}

@@ -1,0 +1,66 @@
+//! Colours and measures of the window, dark and light. The one place where a colour is chosen.
+
+use eframe::egui::{self, Color32, CornerRadius, Stroke};
+use halfvector_graph::value::{SocketType, Type};
+
+/// The colour of a socket and its wires.
+pub(crate) fn socket_color(ty: SocketType) -> Color32 {
+    match ty {
+        SocketType::Value(Type::F32) => Color32::from_rgb(0xa6, 0xad, 0xba),
+        SocketType::Value(Type::I32) => Color32::from_rgb(0x5f, 0xa8, 0x78),
+        SocketType::Value(Type::Bool) => Color32::from_rgb(0xd0, 0x7a, 0xa8),
+        SocketType::Value(Type::Vec2) => Color32::from_rgb(0x56, 0xb0, 0xc8),
+        SocketType::Value(Type::Vec3) => Color32::from_rgb(0xe0, 0xb0, 0x4a),
+        SocketType::Value(Type::Vec4) => Color32::from_rgb(0xd9, 0x84, 0x52),
+        SocketType::Generic => Color32::from_rgb(0x9a, 0x8c, 0xe0),
+        SocketType::Texture => Color32::from_rgb(0xc9, 0x66, 0x66),
+        SocketType::Surface => Color32::from_rgb(0x6f, 0xc0, 0x5a),
+    }
+}
+
+/// The colour of a node's header by the category of its definition, such as `math`.
+pub(crate) fn category_color(category: &str) -> Color32 {
+    match category {
+        "surface" => Color32::from_rgb(0x3f, 0x6f, 0x3a),
+        "texture" => Color32::from_rgb(0x7a, 0x42, 0x42),
+        "procedural" => Color32::from_rgb(0x7a, 0x5a, 0x2e),
+        "color" => Color32::from_rgb(0x78, 0x6a, 0x2c),
+        "coordinates" => Color32::from_rgb(0x2e, 0x64, 0x74),
+        "geometry" | "space" => Color32::from_rgb(0x2f, 0x6b, 0x62),
+        "vector" => Color32::from_rgb(0x4a, 0x56, 0x86),
+        _ => Color32::from_rgb(0x4c, 0x54, 0x62),
+    }
+}
+
+/// Something is wrong.
+pub(crate) const ERROR: Color32 = Color32::from_rgb(0xe8, 0x6a, 0x5e);
+/// Something may be wrong.
+pub(crate) const WARNING: Color32 = Color32::from_rgb(0xe3, 0xb3, 0x41);
+/// Something is well.
+pub(crate) const GOOD: Color32 = Color32::from_rgb(0x6f, 0xbf, 0x73);
+/// What is chosen.
+pub(crate) const ACCENT: Color32 = Color32::from_rgb(0x4d, 0x9d, 0xe0);
+
+/// Sets both themes of the window.
+pub(crate) fn install(context: &egui::Context) {
+    context.style_mut_of(egui::Theme::Dark, |style| {
+        style.visuals.panel_fill = Color32::from_rgb(0x1d, 0x1f, 0x23);
+        style.visuals.window_fill = Color32::from_rgb(0x24, 0x27, 0x2c);
+        style.visuals.extreme_bg_color = Color32::from_rgb(0x14, 0x16, 0x19);
+        style.visuals.faint_bg_color = Color32::from_rgb(0x23, 0x26, 0x2b);
+        style.visuals.window_stroke = Stroke::new(1.0, Color32::from_rgb(0x3a, 0x3f, 0x47));
+    });
+    for theme in [egui::Theme::Dark, egui::Theme::Light] {
+        context.style_mut_of(theme, |style| {
+            style.visuals.selection.bg_fill = ACCENT.gamma_multiply(0.45);
+            style.visuals.selection.stroke.color = ACCENT;
+            style.visuals.hyperlink_color = ACCENT;
+            style.visuals.warn_fg_color = WARNING;
+            style.visuals.error_fg_color = ERROR;
+            style.visuals.window_corner_radius = CornerRadius::same(6);
+            style.visuals.menu_corner_radius = CornerRadius::same(6);
+            style.spacing.item_spacing = egui::vec2(6.0, 5.0);
+            style.spacing.button_padding = egui::vec2(7.0, 3.0);
+        });
+    }
+}
