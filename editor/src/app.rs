@@ -76,9 +76,9 @@ impl Editor {
         let panes = Panes {
             canvas: Canvas::default(),
             viewport: Viewport::new(context),
-            inspector: Inspector::default(),
+            inspector: Inspector,
             code: Code::new(context),
-            problems: Problems::default(),
+            problems: Problems,
         };
         Editor { session, panes, tree: start_layout(), message }
     }

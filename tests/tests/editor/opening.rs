@@ -12,6 +12,8 @@ fn the_start_material_is_shown() {
     let session = harness.state().session();
     assert_eq!(session.document().name, "Worn enamel");
     assert!(!session.is_unsaved());
+    harness.get_by_label("Problems").click();
+    settle(&mut harness);
     harness.get_by_label("No problems");
 }
 

@@ -18,16 +18,46 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("crates/render", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
     ("crates/report", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),
     (
+        "editor",
+        &[
+            "brdf",
+            "maps",
+            "ibl",
+            "graph",
+            "codegen",
+            "scene",
+            "raster",
+            "reference",
+            "render",
+            "report",
+            "shaders",
+            "interp",
+        ],
+    ),
+    (
         "crates/cli",
-        &["brdf", "maps", "ibl", "graph", "codegen", "scene", "raster", "reference", "render", "report", "shaders"],
+        &[
+            "brdf",
+            "maps",
+            "ibl",
+            "graph",
+            "codegen",
+            "scene",
+            "raster",
+            "reference",
+            "render",
+            "report",
+            "shaders",
+            "editor",
+        ],
     ),
 ];
 
 /// Packages of others that only some of ours may name.
 const RESTRICTED: &[(&str, &[&str])] = &[
     ("wgpu", &["crates/render"]),
-    ("egui", &[]),
-    ("eframe", &[]),
+    ("egui", &["editor"]),
+    ("eframe", &["editor"]),
     ("anyhow", &["crates/cli"]),
     ("clap", &["crates/cli"]),
 ];
