@@ -37,6 +37,16 @@ pub fn coupling_compensated<R: Real>(f0: R, f90: R, dfg: [R; 2]) -> R {
     (R::of(ARRIVING) - single * (R::ONE + average * gain)).clamp(R::ZERO, R::ONE)
 }
 
+/// [`coupling_compensated`] of each channel for an interface of the same reflectance `f` at all angles of the lobe: a film.
+///
+/// Domain: all in [0, 1]. In [0, 1].
+#[inline]
+pub fn coupling_colored<R: Real>(f: [R; 3], dfg: [R; 2]) -> [R; 3] {
+    let albedo = dfg[0] + dfg[1];
+    let gain = R::ONE / albedo.clamp(R::of(0.1), R::ONE) - R::ONE;
+    f.map(|f| (R::of(ARRIVING) - f * albedo * (R::ONE + f * gain)).clamp(R::ZERO, R::ONE))
+}
+
 /// What makes the coupling reciprocal: (1 - E_spec(l)) / (1 - E_spec,avg) for a light whose split-sum pair is `dfg`; times
 /// [`coupling_single`] of the viewer. Shirley, Smits, Hu, Lafortune 1997, A Practitioners' Assessment of Light Reflection
 /// Models; Kelemen and Szirmay-Kalos 2001.

@@ -89,6 +89,13 @@ pub fn f_thin_film<R: Real>(film_ior: R, thickness: R, base_eta: [R; 3], base_k:
     [reflectance(0), reflectance(1), reflectance(2)]
 }
 
+/// [`f_thin_film`] on a dielectric base, of index `base_eta` from 1 up: all amplitudes are real there, which is a third of
+/// the work for a shader.
+#[inline]
+pub fn f_thin_film_dielectric<R: Real>(film_ior: R, thickness: R, base_eta: [R; 3], cos_theta: R) -> [R; 3] {
+    f_thin_film(film_ior, thickness, base_eta.map(|n| n.max(R::ONE)), [R::ZERO; 3], cos_theta)
+}
+
 /// Each channel's response to exp(i m k `path`), m = 1..3: by order and channel, real and imaginary part.
 #[inline]
 fn tones<R: Real>(path: R) -> [[[R; 2]; 3]; 3] {

@@ -75,5 +75,7 @@ fn all_lobes_with_four_maps_in_an_environment() {
     values.insert("coat_color".into(), Value::Vec3([1.0, 0.9, 0.8]));
     values.insert("sheen_color".into(), Value::Vec3([0.2, 0.2, 0.3]));
     values.insert("transmission_weight".into(), Value::Number(0.4));
+    values.insert("anisotropy".into(), Value::Number(0.7));
+    values.insert("thin_film_weight".into(), Value::Number(1.0));
     check("all lobes, four maps, environment", &exported(&document, &environment()), 800);
 }
