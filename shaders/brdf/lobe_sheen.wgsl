@@ -38,19 +38,8 @@ fn sheen_eval(frame: Frame, l: vec3f, p: Sheen) -> vec3f {
     return finite_or_zero(p.color * (v * h.n_dot_l * d / max(most, 1.0)));
 }
 
-/// The direction in which the irradiance of an environment is looked up for sheen: fibres stand up and throw light back, so
-/// that the lobe's middle leans from n to the viewer, the more the smoother. Unit; our own fit to the middles of the lobe.
-fn sheen_direction(frame: Frame, perceptual_roughness: f32) -> vec3f {
-    let r = clamp(perceptual_roughness, SHEEN_ROUGHNESS_FLOOR, 1.0);
-    let aside = frame.view_dir - frame.n_dot_v * frame.normal;
-    let lean = 0.12 * (1.0 + 1.1 * frame.n_dot_v) / (r * sqrt(r));
-    // At n.v near 1 the lean has no direction.
-    let sine = max(sqrt(dot(aside, aside)), 0.3);
-    return normalize_or(frame.normal + aside * (lean / sine), frame.normal);
-}
-
 /// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1) times the radiance filtered by the
-/// lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi of sheen_direction.
+/// lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
 fn sheen_environment(p: Sheen, n_dot_v: f32, prefiltered_radiance: vec3f) -> vec3f {
     return finite_or_zero(p.color * min(sheen_albedo(n_dot_v, p.perceptual_roughness), 1.0) * prefiltered_radiance);
 }

@@ -35,7 +35,6 @@ struct FilmTones {
 /// exp(-(m s D)^2 / 2) exp(i m c D). The orders m = 1..3 are summed. The result is held in [0, 1].
 fn f_thin_film(film_ior: f32, thickness: f32, base_eta: vec3f, base_k: vec3f, cos_theta: f32) -> vec3f {
     let c1 = clamp(cos_theta, 0.0, 1.0);
-    let s2 = (1.0 - c1) * (1.0 + c1);
     let depth = clamp(thickness, 0.0, THICKNESS_CEILING);
     let present = min(depth * (1.0 / FADE_THICKNESS), 1.0);
     let fade = present * present * (3.0 - 2.0 * present);
@@ -48,11 +47,12 @@ fn f_thin_film(film_ior: f32, thickness: f32, base_eta: vec3f, base_k: vec3f, co
     let tones = film_tones(2.0 * depth * q);
     let n = clamp(base_eta, vec3f(FILM_IOR_FLOOR), vec3f(BASE_IOR_CEILING));
     let k = clamp(base_k, vec3f(0.0), vec3f(BASE_IOR_CEILING));
-    // (a + i b)^2 = (n + i k)^2 - s2 of each channel, each root without cancellation as in f_conductor.
+    // (a + i b)^2 = (n + i k)^2 - 1 + c1^2 of each channel, each root without cancellation as in f_conductor. A base of
+    // nearly the index outside has a = c1 at grazing incidence: 1 - c1^2 would have lost it.
     let nk = n * k;
     let squared_re = n * n - k * k;
     let squared_im = 2.0 * nk;
-    let t = squared_re - s2;
+    let t = (n - 1.0) * (n + 1.0) + c1 * c1 - k * k;
     let greater = sqrt(0.5 * (sqrt(t * t + squared_im * squared_im) + abs(t)));
     let smaller = nk / max(greater, vec3f(FILM_FLOOR));
     let is_metal = t < vec3f(0.0);
@@ -69,7 +69,6 @@ fn f_thin_film(film_ior: f32, thickness: f32, base_eta: vec3f, base_k: vec3f, co
 /// work.
 fn f_thin_film_dielectric(film_ior: f32, thickness: f32, base_eta: vec3f, cos_theta: f32) -> vec3f {
     let c1 = clamp(cos_theta, 0.0, 1.0);
-    let s2 = (1.0 - c1) * (1.0 + c1);
     let depth = clamp(thickness, 0.0, THICKNESS_CEILING);
     let present = min(depth * (1.0 / FADE_THICKNESS), 1.0);
     let fade = present * present * (3.0 - 2.0 * present);
@@ -83,7 +82,7 @@ fn f_thin_film_dielectric(film_ior: f32, thickness: f32, base_eta: vec3f, cos_th
     let three = film_tone(3.0 * path);
     let n = clamp(base_eta, vec3f(1.0), vec3f(BASE_IOR_CEILING));
     let n2 = n * n;
-    let a = sqrt(max(n2 - s2, vec3f(0.0)));
+    let a = sqrt((n - 1.0) * (n + 1.0) + c1 * c1);
     let r12_s = (c1 - q) / max(c1 + q, FILM_FLOOR);
     let r12_p = (ior2 * c1 - q) / max(ior2 * c1 + q, FILM_FLOOR);
     let r23_s = (q - a) / max(q + a, vec3f(FILM_FLOOR));

@@ -7,9 +7,9 @@
 
 use crate::Real;
 use crate::frame::{Frame, half_from_light};
-use crate::math::{finite_or_zero, normalize_or};
+use crate::math::finite_or_zero;
 use crate::sheen::{d_charlie, v_neubelt};
-use crate::vector::{add, dot, scale};
+use crate::vector::scale;
 
 /// Smallest perceptual roughness of the fit of the albedo.
 const SHEEN_ROUGHNESS_FLOOR: f64 = 0.05;
@@ -53,23 +53,8 @@ pub fn sheen_eval<R: Real>(frame: Frame<R>, l: [R; 3], p: Sheen<R>) -> [R; 3] {
     finite_or_zero(scale(p.color, v * h.n_dot_l * d / most.max(R::ONE)))
 }
 
-/// The direction in which the irradiance of an environment is looked up for sheen: fibres stand up and throw light back, so
-/// that the lobe's middle leans from n to the viewer, the more the smoother. Unit; our own fit to the middles of the lobe.
-///
-/// Domain: perceptual roughness in [0, 1], held above 0.05; at n.v = 1 it is n.
-#[inline]
-pub fn sheen_direction<R: Real>(frame: Frame<R>, perceptual_roughness: R) -> [R; 3] {
-    let r = perceptual_roughness.clamp(R::of(SHEEN_ROUGHNESS_FLOOR), R::ONE);
-    let aside = add(frame.view_dir, scale(frame.normal, -frame.n_dot_v));
-    let lean = R::of(0.12) * (R::ONE + R::of(1.1) * frame.n_dot_v) / (r * r.sqrt());
-    // At n.v near 1 the lean has no direction.
-    let sine = dot(aside, aside).sqrt().max(R::of(0.3));
-    normalize_or(add(frame.normal, scale(aside, lean / sine)), frame.normal)
-}
-
 /// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1) times the radiance filtered by the
-/// lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi of
-/// [`sheen_direction`].
+/// lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
 ///
 /// Any input gives a finite result: a channel that would be NaN or infinite is 0.
 #[inline]

@@ -52,7 +52,6 @@ const FRAME: &[&str] = &[
     "strip",
     "strips",
     "behind",
-    "sheen_irradiance",
     "mirror_dir",
     "geometric_normal",
     "horizon",

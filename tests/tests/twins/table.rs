@@ -221,20 +221,19 @@ pub(crate) const TWINS: &[Twin] = &[
     }),
     twin!("brdf/lobe_sheen.wgsl" "sheen_albedo", [Cosine, Range(0.05, 1.0)], 512.0, 1.0, FLOAT, |x| [lobe_sheen::sheen_albedo(x[0], x[1])]),
     twin!("brdf/lobe_sheen.wgsl" "sheen_base", [Color(0.0, 1.0), Range(0.05, 1.0), Cosine], 512.0, 1.0, FLOAT, |x| [lobe_sheen::sheen_base(sheen_lobe(x), x[4])]),
-    twin!("brdf/lobe_sheen.wgsl" "sheen_direction", [Frame, Range(0.05, 1.0)], 4096.0, 1.0, DOUBLE, |x| lobe_sheen::sheen_direction(frame(x), x[7])),
     twin!("brdf/lobe_sheen.wgsl" "sheen_environment", [Color(0.0, 1.0), Range(0.05, 1.0), Cosine, Color(0.0, 1.0)], 512.0, 1.0, FLOAT, |x| lobe_sheen::sheen_environment(sheen_lobe(x), x[4], v(x, 5))),
     twin!("brdf/lobe_sheen.wgsl" "sheen_eval", [Frame, FrontOfLast, Color(0.0, 1.0), Range(0.2, 1.0)], 2048.0, 1.0, FLOAT, |x| lobe_sheen::sheen_eval(frame(x), v(x, 7), sheen_lobe(&x[10..]))),
     // The directions' own rounding is 1 / alpha times as large in D: roughness from 0.3 here, all of it in d_ggx and in
     // the test against the truth.
     twin!("brdf/lobe_specular.wgsl" "specular_eval", [Frame, FrontOfLast, Reflectances(1.0), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| specular_eval(frame(x), v(x, 7), specular(x, 10))),
     twin!("brdf/lobe_specular.wgsl" "specular_environment", [Reflectances(1.0), Alpha, Color(0.0, 1e4), Pair(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| specular_environment(specular(x, 0), v(x, 7), v(x, 10))),
-    // Half vectors of refraction are short where v and -l are near each other: their rounding is that much larger.
     twin!("brdf/lobe_thin_film.wgsl" "thin_film_cosine", [Pair(0.0, 0.5)], 4096.0, 1.0, FLOAT, |x| [thin_film_cosine(v(x, 0))]),
     twin!("brdf/lobe_thin_film.wgsl" "thin_film_fresnel", [Reflectances(0.9), Range(-0.5, 1.5), Range(0.0, 1000.0), Range(1.0, 3.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film_fresnel(v(x, 0), v(x, 3), film(x, 6), x[9])),
     twin!("brdf/lobe_thin_film.wgsl" "thin_film_through", [Color(0.0, 1.0), Reflectances(0.9), Range(0.3, 1.0)], 256.0, 1.0, DOUBLE, |x| thin_film_through(v(x, 0), v(x, 3), v(x, 6), x[9])),
     twin!("brdf/lobe_transmission.wgsl" "f0_of_sheet", [Range(0.0, 1.0), Range(0.0, 1.0)], 8.0, 0.0, DOUBLE, |x| [f0_of_sheet(x[0], x[1])]),
     twin!("brdf/lobe_transmission.wgsl" "transmission_direction", [Frame, Range(0.4, 2.5)], 4096.0, 1.0, DOUBLE, |x| transmission_direction(frame(x), x[7])),
     twin!("brdf/lobe_transmission.wgsl" "transmission_environment", [Color(0.0, 1.0), Range(0.4, 2.5), Alpha, Range(0.0, 0.2), Color(0.0, 1e4), Pair(0.0, 0.5)], 8.0, 1.0, DOUBLE, |x| transmission_environment(transmitted(x, 0), x[5], v(x, 6), v(x, 9))),
+    // Half vectors of refraction are short where v and -l are near each other: their rounding is that much larger.
     twin!("brdf/lobe_transmission.wgsl" "transmission_eval", [Frame, BackOfLast, Color(0.0, 1.0), Range(1.3, 2.0), Range(0.2, 1.0)], 1024.0, 1.0, DOUBLE, |x| transmission_eval(frame(x), v(x, 7), transmitted(x, 10))),
     twin!("brdf/lobe_transmission.wgsl" "transmission_lookup", [Frame, Range(0.4, 2.5), Range(0.01, 1.0)], 65536.0, 1.0, DOUBLE, |x| looked_up(transmission_lookup(frame(x), x[7], x[8]))),
     twin!("brdf/lobe_transmission.wgsl" "transmission_thin_eval", [Frame, BackOfLast, Color(0.0, 1.0), Range(1.1, 2.5), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| transmission_thin_eval(frame(x), v(x, 7), transmitted(x, 10))),

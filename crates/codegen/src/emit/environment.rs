@@ -27,7 +27,7 @@ impl Shading<'_, '_, '_> {
         let last_level = self.parts.needs.methods.is("irradiance", "last_level");
         let strips = self.strips();
         let by_mirror = plan.specular && (!strips || plan.horizon);
-        if by_mirror || ((plan.reads_irradiance() || plan.sheen) && last_level) {
+        if by_mirror || (plan.reads_irradiance() && last_level) {
             let mut mirror = self.mirror()?;
             if plan.horizon && plan.environment == Some(true) {
                 self.line(&format!("let mirror_dir = {mirror};"));
@@ -37,7 +37,7 @@ impl Shading<'_, '_, '_> {
             self.line(&format!("let reflection_dir = {direction};"));
         }
         if plan.reads_irradiance() {
-            let irradiance = self.irradiance("frame.normal")?;
+            let irradiance = self.irradiance()?;
             self.line(&format!("let irradiance = {irradiance};"));
         }
         self.base()?;
@@ -78,17 +78,17 @@ impl Shading<'_, '_, '_> {
         Ok(format!("{bent}(frame, tangent, {strength}, {roughness})"))
     }
 
-    /// Diffuse light over pi about a direction.
-    fn irradiance(&mut self, about: &str) -> Result<String, CodegenError> {
+    /// Diffuse light over pi about the normal.
+    fn irradiance(&mut self) -> Result<String, CodegenError> {
         match self.parts.needs.methods.get("irradiance").name {
             "sh2" => {
-                let direction = self.turned(about)?;
+                let direction = self.turned("frame.normal")?;
                 let coefficients = self.writer.view(ViewMember::IrradianceSh);
                 Ok(format!("{}({coefficients}, {direction})", self.writer.library("irradiance_sh2")?))
             }
             "last_level" => self.prefiltered("reflection_dir", "1.0"),
             _ => {
-                let direction = self.turned(about)?;
+                let direction = self.turned("frame.normal")?;
                 let cube = self.writer.environment(EnvironmentTexture::IrradianceOverPi);
                 let sample = self.writer.library("environment_sample")?;
                 self.encoded(format!("{sample}({cube}, {direction}, 0.0)"))
@@ -155,11 +155,8 @@ impl Shading<'_, '_, '_> {
             self.add(&format!("{lobe}(coat, coat_reflection, coat_dfg){hidden}{above}"));
         }
         if plan.sheen {
-            let fuzz = self.writer.library("sheen_direction")?;
-            let irradiance = self.irradiance(&format!("{fuzz}(frame, sheen.perceptual_roughness)"))?;
-            self.line(&format!("let sheen_irradiance = {irradiance};"));
             let (lobe, occlusion) = (self.writer.library("sheen_environment")?, self.occlusion());
-            self.add(&format!("{lobe}(sheen, frame.n_dot_v, sheen_irradiance){occlusion}"));
+            self.add(&format!("{lobe}(sheen, frame.n_dot_v, irradiance){occlusion}"));
         }
         Ok(())
     }

