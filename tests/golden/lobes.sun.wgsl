@@ -60,11 +60,11 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, specular_roughness);
     let film = ThinFilm(0.5, 1000.0 * 0.5, 1.4);
     let film_cosine = thin_film_cosine(dfg);
-    let film_fresnel = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, film_cosine);
-    let film_through = thin_film_through(film_fresnel, vec3f(0.040000003), vec3f(1.0), film_cosine);
-    let specular = Anisotropic(film_fresnel, film_fresnel, tangent, alphas.x, alphas.y);
+    let film_shift = thin_film_shift(vec3f(0.040000003), vec3f(1.0), film, film_cosine);
+    let film_through = thin_film_through(film_shift, vec3f(0.040000003), vec3f(1.0), film_cosine);
+    let specular = Anisotropic(vec3f(0.040000003) + film_shift, vec3f(1.0) + film_shift, tangent, alphas.x, alphas.y);
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
-    let diffuse = Diffuse(vec3f(0.7, 0.3, 0.2) * (1.0 - 0.4) * coupling_colored(film_fresnel, dfg), 0.5);
+    let diffuse = Diffuse(vec3f(0.7, 0.3, 0.2) * (1.0 - 0.4) * coupling_colored(vec3f(0.040000003) + film_shift, vec3f(1.0) + film_shift, dfg), 0.5);
     let transmission = Transmission(vec3f(0.7, 0.3, 0.2) * 0.4 * film_through, 1.5, alpha_from_perceptual_roughness(max(0.5, PUNCTUAL_ROUGHNESS_FLOOR)));
     let coat = Coat(0.8, vec3f(1.0, 0.9, 0.8), 0.040000003, alpha_from_perceptual_roughness(max(0.1, PUNCTUAL_ROUGHNESS_FLOOR)));
     let coat_dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.1);
@@ -116,11 +116,11 @@ fn v_smith_ggx_anisotropic(view_in_tangent: vec3f, light_in_tangent: vec3f, alph
 // 1 less what a table of 45 x 45 texels may be too low by: so that base and interface do not gain.
 const ARRIVING: f32 = 0.9975;
 
-/// coupling_compensated of each channel for an interface of the same reflectance `f` at all angles of the lobe: a film.
-fn coupling_colored(f: vec3f, dfg: vec2f) -> vec3f {
-    let albedo = dfg.x + dfg.y;
-    let gain = 1.0 / clamp(albedo, 0.1, 1.0) - 1.0;
-    return saturate(ARRIVING - f * albedo * (1.0 + f * gain));
+/// coupling_compensated of each channel: an interface under a film.
+fn coupling_colored(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
+    let average = f0 + (f90 - f0) * (1.0 / 21.0);
+    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
 }
 
 // ---- brdf/diffuse.wgsl
@@ -436,15 +436,20 @@ struct ThinFilm {
     ior: f32,
 }
 
-/// Reflectance at the cosine l.h of a base of reflectances f0 and f90, `p.weight` of it under the film:
-/// mix(F(f0, f90), f90 F_film, weight). It takes the place of f0 and of f90 in a lobe.
-fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
+/// What the film adds to the reflectance at the cosine l.h of a base of reflectances f0 and f90, in [-1, 1]:
+/// weight (f90 F_film - F(f0, f90)). For the light of a whole lobe it is added to both f0 and f90.
+fn thin_film_shift(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
     // ior_from_f0 of each channel.
     let s2 = clamp(f0 / max(f90, vec3f(F90_FLOOR)), vec3f(0.0), vec3f(F0_CEILING));
     let s = 1.0 + sqrt(s2);
     let film = f_thin_film_dielectric(p.ior, p.thickness, s * s / (1.0 - s2), l_dot_h);
-    let bare = f_schlick(f0, f90, l_dot_h);
-    return bare + (f90 * film - bare) * saturate(p.weight);
+    return saturate(p.weight) * (f90 * film - f_schlick(f0, f90, l_dot_h));
+}
+
+/// Reflectance at the cosine l.h, `p.weight` of the base under the film: F(f0, f90) + thin_film_shift. It takes the place of
+/// f0 and of f90 in a lobe lit from one direction.
+fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
+    return f_schlick(f0, f90, l_dot_h) + thin_film_shift(f0, f90, p, l_dot_h);
 }
 
 /// The cosine l.h at which Schlick's F is the lobe's mean, from the split-sum pair: b / (a + b) is the mean of
@@ -454,11 +459,11 @@ fn thin_film_cosine(dfg: vec2f) -> f32 {
     return 1.0 - exp2(0.2 * log2(mean));
 }
 
-/// What a film of the reflectance `film` changes of the light that passes the base: (1 - `film`) / (1 - F), both
-/// reflectances at one cosine. Held in [0, 4].
-fn thin_film_through(film: vec3f, f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
+/// What a film that adds `shift` to the reflectance changes of the light that passes the base: (1 - F - shift) / (1 - F), all
+/// at one cosine. Held in [0, 4].
+fn thin_film_through(shift: vec3f, f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
     let bare = f_schlick(f0, f90, l_dot_h);
-    return clamp((1.0 - film) / max(1.0 - bare, vec3f(1e-3)), vec3f(0.0), vec3f(4.0));
+    return clamp(1.0 - shift / max(1.0 - bare, vec3f(1e-3)), vec3f(0.0), vec3f(4.0));
 }
 
 // ---- brdf/lobe_transmission.wgsl

@@ -88,9 +88,10 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, specular_roughness);
     let film = ThinFilm(parameters.thin_film_weight, 1000.0 * parameters.thin_film_thickness, parameters.thin_film_ior);
     let film_cosine = thin_film_cosine(dfg);
-    let film_fresnel = thin_film_fresnel(f0, vec3f(f90), film, film_cosine);
-    let film_through = thin_film_through(film_fresnel, f0, vec3f(f90), film_cosine);
-    let specular = Anisotropic(film_fresnel, film_fresnel, tangent, alphas.x, alphas.y);
+    let film_shift = thin_film_shift(f0, vec3f(f90), film, film_cosine);
+    let dielectric_shift = thin_film_shift(vec3f(dielectric_f0_2), vec3f(parameters.specular), film, film_cosine);
+    let film_through = thin_film_through(dielectric_shift, vec3f(dielectric_f0_2), vec3f(parameters.specular), film_cosine);
+    let specular = Anisotropic(f0 + film_shift, vec3f(f90) + film_shift, tangent, alphas.x, alphas.y);
     let diffuse = Diffuse(diffuse_albedo * (1.0 - parameters.transmission_weight), parameters.perceptual_roughness);
     let transmission = Transmission(diffuse_albedo * parameters.transmission_weight * film_through, parameters.ior, alpha_from_perceptual_roughness(parameters.perceptual_roughness));
     let coat = Coat(parameters.coat_weight, parameters.coat_color, coat_f0, alpha_from_perceptual_roughness(parameters.coat_roughness));
@@ -369,15 +370,14 @@ struct ThinFilm {
     ior: f32,
 }
 
-/// Reflectance at the cosine l.h of a base of reflectances f0 and f90, `p.weight` of it under the film:
-/// mix(F(f0, f90), f90 F_film, weight). It takes the place of f0 and of f90 in a lobe.
-fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
+/// What the film adds to the reflectance at the cosine l.h of a base of reflectances f0 and f90, in [-1, 1]:
+/// weight (f90 F_film - F(f0, f90)). For the light of a whole lobe it is added to both f0 and f90.
+fn thin_film_shift(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
     // ior_from_f0 of each channel.
     let s2 = clamp(f0 / max(f90, vec3f(F90_FLOOR)), vec3f(0.0), vec3f(F0_CEILING));
     let s = 1.0 + sqrt(s2);
     let film = f_thin_film_dielectric(p.ior, p.thickness, s * s / (1.0 - s2), l_dot_h);
-    let bare = f_schlick(f0, f90, l_dot_h);
-    return bare + (f90 * film - bare) * saturate(p.weight);
+    return saturate(p.weight) * (f90 * film - f_schlick(f0, f90, l_dot_h));
 }
 
 /// The cosine l.h at which Schlick's F is the lobe's mean, from the split-sum pair: b / (a + b) is the mean of
@@ -387,11 +387,11 @@ fn thin_film_cosine(dfg: vec2f) -> f32 {
     return 1.0 - exp2(0.2 * log2(mean));
 }
 
-/// What a film of the reflectance `film` changes of the light that passes the base: (1 - `film`) / (1 - F), both
-/// reflectances at one cosine. Held in [0, 4].
-fn thin_film_through(film: vec3f, f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
+/// What a film that adds `shift` to the reflectance changes of the light that passes the base: (1 - F - shift) / (1 - F), all
+/// at one cosine. Held in [0, 4].
+fn thin_film_through(shift: vec3f, f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
     let bare = f_schlick(f0, f90, l_dot_h);
-    return clamp((1.0 - film) / max(1.0 - bare, vec3f(1e-3)), vec3f(0.0), vec3f(4.0));
+    return clamp(1.0 - shift / max(1.0 - bare, vec3f(1e-3)), vec3f(0.0), vec3f(4.0));
 }
 
 // ---- brdf/lobe_transmission.wgsl

@@ -37,14 +37,12 @@ pub fn coupling_compensated<R: Real>(f0: R, f90: R, dfg: [R; 2]) -> R {
     (R::of(ARRIVING) - single * (R::ONE + average * gain)).clamp(R::ZERO, R::ONE)
 }
 
-/// [`coupling_compensated`] of each channel for an interface of the same reflectance `f` at all angles of the lobe: a film.
+/// [`coupling_compensated`] of each channel: an interface under a film.
 ///
-/// Domain: all in [0, 1]. In [0, 1].
+/// Domain and edges: as [`coupling_single`].
 #[inline]
-pub fn coupling_colored<R: Real>(f: [R; 3], dfg: [R; 2]) -> [R; 3] {
-    let albedo = dfg[0] + dfg[1];
-    let gain = R::ONE / albedo.clamp(R::of(0.1), R::ONE) - R::ONE;
-    f.map(|f| (R::of(ARRIVING) - f * albedo * (R::ONE + f * gain)).clamp(R::ZERO, R::ONE))
+pub fn coupling_colored<R: Real>(f0: [R; 3], f90: [R; 3], dfg: [R; 2]) -> [R; 3] {
+    [0, 1, 2].map(|i| coupling_compensated(f0[i], f90[i], dfg))
 }
 
 /// What makes the coupling reciprocal: (1 - E_spec(l)) / (1 - E_spec,avg) for a light whose split-sum pair is `dfg`; times

@@ -10,7 +10,9 @@ use halfvector_brdf::lobe_multiscatter::{
 };
 use halfvector_brdf::lobe_sheen::{self, Sheen};
 use halfvector_brdf::lobe_specular::{Specular, specular_environment, specular_eval};
-use halfvector_brdf::lobe_thin_film::{ThinFilm, thin_film_cosine, thin_film_fresnel, thin_film_through};
+use halfvector_brdf::lobe_thin_film::{
+    ThinFilm, thin_film_cosine, thin_film_fresnel, thin_film_shift, thin_film_through,
+};
 use halfvector_brdf::lobe_transmission::{
     Transmission, TransmissionLookup, f0_of_sheet, transmission_direction, transmission_environment, transmission_eval,
     transmission_lookup, transmission_thin_eval,
@@ -164,7 +166,7 @@ pub(crate) const TWINS: &[Twin] = &[
     // Where Walter's fit goes to 0, at a = 1.6, it is a difference.
     twin!("brdf/beckmann.wgsl" "v_smith_beckmann_correlated", [Cosine, Cosine, Cosine, Alpha], 32.0, 0.0, DOUBLE, |x| [beckmann::v_smith_beckmann_correlated(x[0], x[1], x[2], x[3])]),
     twin!("brdf/beckmann.wgsl" "v_smith_beckmann_separable", [Cosine, Cosine, Cosine, Alpha], 32.0, 0.0, DOUBLE, |x| [beckmann::v_smith_beckmann_separable(x[0], x[1], x[2], x[3])]),
-    twin!("brdf/coupling.wgsl" "coupling_colored", [Color(0.0, 1.0), Pair(0.05, 0.5)], 16.0, 1.0, DOUBLE, |x| coupling::coupling_colored(v(x, 0), v(x, 3))),
+    twin!("brdf/coupling.wgsl" "coupling_colored", [Color(0.0, 1.0), Color(0.0, 1.0), Pair(0.05, 0.5)], 16.0, 1.0, DOUBLE, |x| coupling::coupling_colored(v(x, 0), v(x, 3), v(x, 6))),
     twin!("brdf/coupling.wgsl" "coupling_compensated", [Range(0.0, 0.2), Range(0.0, 1.0), Pair(0.0, 0.5)], 8.0, 1.0, DOUBLE, |x| [coupling::coupling_compensated(x[0], x[1], v(x, 2))]),
     twin!("brdf/coupling.wgsl" "coupling_light", [Range(0.0, 0.2), Range(0.0, 1.0), Pair(0.0, 0.5), Roughness], 8.0, 1.0, DOUBLE, |x| [coupling::coupling_light(x[0], x[1], v(x, 2), x[4])]),
     twin!("brdf/coupling.wgsl" "coupling_single", [Range(0.0, 0.2), Range(0.0, 1.0), Pair(0.0, 0.5)], 4.0, 1.0, DOUBLE, |x| [coupling::coupling_single(x[0], x[1], v(x, 2))]),
@@ -229,7 +231,8 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("brdf/lobe_specular.wgsl" "specular_environment", [Reflectances(1.0), Alpha, Color(0.0, 1e4), Pair(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| specular_environment(specular(x, 0), v(x, 7), v(x, 10))),
     twin!("brdf/lobe_thin_film.wgsl" "thin_film_cosine", [Pair(0.0, 0.5)], 4096.0, 1.0, FLOAT, |x| [thin_film_cosine(v(x, 0))]),
     twin!("brdf/lobe_thin_film.wgsl" "thin_film_fresnel", [Reflectances(0.9), Range(-0.5, 1.5), Range(0.0, 1000.0), Range(1.0, 3.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film_fresnel(v(x, 0), v(x, 3), film(x, 6), x[9])),
-    twin!("brdf/lobe_thin_film.wgsl" "thin_film_through", [Color(0.0, 1.0), Reflectances(0.9), Range(0.3, 1.0)], 256.0, 1.0, DOUBLE, |x| thin_film_through(v(x, 0), v(x, 3), v(x, 6), x[9])),
+    twin!("brdf/lobe_thin_film.wgsl" "thin_film_shift", [Reflectances(0.9), Range(-0.5, 1.5), Range(0.0, 1000.0), Range(1.0, 3.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film_shift(v(x, 0), v(x, 3), film(x, 6), x[9])),
+    twin!("brdf/lobe_thin_film.wgsl" "thin_film_through", [Color(-1.0, 1.0), Reflectances(0.9), Range(0.3, 1.0)], 256.0, 1.0, DOUBLE, |x| thin_film_through(v(x, 0), v(x, 3), v(x, 6), x[9])),
     twin!("brdf/lobe_transmission.wgsl" "f0_of_sheet", [Range(0.0, 1.0), Range(0.0, 1.0)], 8.0, 0.0, DOUBLE, |x| [f0_of_sheet(x[0], x[1])]),
     twin!("brdf/lobe_transmission.wgsl" "transmission_direction", [Frame, Range(0.4, 2.5)], 4096.0, 1.0, DOUBLE, |x| transmission_direction(frame(x), x[7])),
     twin!("brdf/lobe_transmission.wgsl" "transmission_environment", [Color(0.0, 1.0), Range(0.4, 2.5), Alpha, Range(0.0, 0.2), Color(0.0, 1e4), Pair(0.0, 0.5)], 8.0, 1.0, DOUBLE, |x| transmission_environment(transmitted(x, 0), x[5], v(x, 6), v(x, 9))),

@@ -47,6 +47,8 @@ pub(crate) struct Plan {
     pub(crate) anisotropy: bool,
     /// Whether a thin film lies on the base.
     pub(crate) thin_film: bool,
+    /// Whether the base is a mixture of a metal and a dielectric.
+    pub(crate) metal_in_part: bool,
     pub(crate) emission: bool,
     /// Occlusion of the environment.
     pub(crate) occlusion: bool,
@@ -86,6 +88,12 @@ impl Plan {
     /// Whether shading reads the split sum's pair towards each light.
     pub(crate) fn reads_light_dfg(&self) -> bool {
         self.multiscatter || self.coupling == Coupling::Reciprocal
+    }
+
+    /// Whether a film lies over a mixture of a metal and a dielectric that lets light through to what lies below.
+    pub(crate) fn parts_film(&self) -> bool {
+        let below = self.transmission || self.coupling != Coupling::None;
+        self.thin_film && self.metal_in_part && below
     }
 
     pub(crate) fn is_lit(&self) -> bool {
@@ -253,7 +261,8 @@ fn metal(program: &Program<'_>, fold: Fold) -> Metal {
 fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold, constants: Constants) -> Plan {
     let known = Known { program, fold };
     let metal = metal(program, fold);
-    let mut plan = Plan { double_sided: document.surface.double_sided, ..Plan::default() };
+    let double_sided = document.surface.double_sided;
+    let mut plan = Plan { double_sided, metal_in_part: metal == Metal::Mixed, ..Plan::default() };
 
     let counts = [needs.directional_lights, needs.point_lights, needs.spot_lights];
     plan.lights = LightKind::ALL.into_iter().zip(counts).filter(|(_, count)| *count > 0).collect();
@@ -500,6 +509,7 @@ fn keep_wanted(stage: &mut Stage<'_>, plan: &Plan) {
         "transmission_weight" | "ior" => plan.transmission,
         "anisotropy" | "anisotropy_rotation" | "tangent" => plan.anisotropy,
         "thin_film_weight" | "thin_film_thickness" | "thin_film_ior" => plan.thin_film,
+        "metallic" => plan.parts_film(),
         "occlusion" => plan.occlusion,
         "emission" => plan.emission,
         "opacity" => plan.alpha_mode != AlphaMode::Opaque,
