@@ -93,7 +93,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let film = ThinFilm(parameters.thin_film_weight, 1000.0 * parameters.thin_film_thickness, parameters.thin_film_ior);
     let film_cosine = thin_film_cosine(dfg);
     let film_shift = thin_film_shift(f0, vec3f(f90), film, film_cosine);
-    let dielectric_shift = thin_film_shift(vec3f(dielectric_f0_2), vec3f(parameters.specular), film, film_cosine);
+    let dielectric_shift = film_shift * (1.0 - parameters.metallic);
     let film_through = thin_film_through(dielectric_shift, vec3f(dielectric_f0_2), vec3f(parameters.specular), film_cosine);
     let specular = Anisotropic(f0 + film_shift, vec3f(f90) + film_shift, tangent, alphas.x, alphas.y);
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
