@@ -202,7 +202,7 @@ fn lobes_are_the_extensions() {
         }),
         |_| {},
     );
-    let values = &lobes.nodes["surface"].values;
+    let values = &lobes.graph.nodes["surface"].values;
     for (socket, value) in [
         ("coat_weight", 0.8),
         ("sheen_roughness", 0.6),
