@@ -35,7 +35,6 @@ struct FilmTones {
 /// exp(-(m s D)^2 / 2) exp(i m c D). The orders m = 1..3 are summed. The result is held in [0, 1].
 fn f_thin_film(film_ior: f32, thickness: f32, base_eta: vec3f, base_k: vec3f, cos_theta: f32) -> vec3f {
     let c1 = clamp(cos_theta, 0.0, 1.0);
-    let s2 = (1.0 - c1) * (1.0 + c1);
     let depth = clamp(thickness, 0.0, THICKNESS_CEILING);
     let present = min(depth * (1.0 / FADE_THICKNESS), 1.0);
     let fade = present * present * (3.0 - 2.0 * present);
@@ -46,13 +45,75 @@ fn f_thin_film(film_ior: f32, thickness: f32, base_eta: vec3f, base_k: vec3f, co
     let ior2 = ior * ior;
     let r12 = vec2f((c1 - q) / max(c1 + q, FILM_FLOOR), (ior2 * c1 - q) / max(ior2 * c1 + q, FILM_FLOOR));
     let tones = film_tones(2.0 * depth * q);
-    let red = film_channel(r12, ior2, q, s2, base_eta.x, base_k.x,
-        vec3f(tones.re1.x, tones.re2.x, tones.re3.x), vec3f(tones.im1.x, tones.im2.x, tones.im3.x));
-    let green = film_channel(r12, ior2, q, s2, base_eta.y, base_k.y,
-        vec3f(tones.re1.y, tones.re2.y, tones.re3.y), vec3f(tones.im1.y, tones.im2.y, tones.im3.y));
-    let blue = film_channel(r12, ior2, q, s2, base_eta.z, base_k.z,
-        vec3f(tones.re1.z, tones.re2.z, tones.re3.z), vec3f(tones.im1.z, tones.im2.z, tones.im3.z));
-    return select(clamp(vec3f(red, green, blue), vec3f(0.0), vec3f(1.0)), vec3f(1.0), q2 < 0.0);
+    let n = clamp(base_eta, vec3f(FILM_IOR_FLOOR), vec3f(BASE_IOR_CEILING));
+    let k = clamp(base_k, vec3f(0.0), vec3f(BASE_IOR_CEILING));
+    // (a + i b)^2 = (n + i k)^2 - 1 + c1^2 of each channel, each root without cancellation as in f_conductor. A base of
+    // nearly the index outside has a = c1 at grazing incidence: 1 - c1^2 would have lost it.
+    let nk = n * k;
+    let squared_re = n * n - k * k;
+    let squared_im = 2.0 * nk;
+    let t = (n - 1.0) * (n + 1.0) + c1 * c1 - k * k;
+    let greater = sqrt(0.5 * (sqrt(t * t + squared_im * squared_im) + abs(t)));
+    let smaller = nk / max(greater, vec3f(FILM_FLOOR));
+    let is_metal = t < vec3f(0.0);
+    let a = select(greater, smaller, is_metal);
+    let b = select(smaller, greater, is_metal);
+    let s = film_series(r12.x, q - a, -b, q + a, b, tones);
+    let minus_re = squared_re * q - ior2 * a;
+    let minus_im = squared_im * q - ior2 * b;
+    let p = film_series(r12.y, minus_re, minus_im, squared_re * q + ior2 * a, squared_im * q + ior2 * b, tones);
+    return select(clamp(0.5 * (s + p), vec3f(0.0), vec3f(1.0)), vec3f(1.0), q2 < 0.0);
+}
+
+/// f_thin_film on a dielectric base, of index `base_eta` from 1 up: all amplitudes are real there, which is a third of the
+/// work.
+fn f_thin_film_dielectric(film_ior: f32, thickness: f32, base_eta: vec3f, cos_theta: f32) -> vec3f {
+    let c1 = clamp(cos_theta, 0.0, 1.0);
+    let depth = clamp(thickness, 0.0, THICKNESS_CEILING);
+    let present = min(depth * (1.0 / FADE_THICKNESS), 1.0);
+    let fade = present * present * (3.0 - 2.0 * present);
+    let ior = 1.0 + fade * (clamp(film_ior, FILM_IOR_FLOOR, FILM_IOR_CEILING) - 1.0);
+    let q2 = (ior - 1.0) * (ior + 1.0) + c1 * c1;
+    let q = sqrt(max(q2, 0.0));
+    let ior2 = ior * ior;
+    let path = 2.0 * depth * q;
+    let one = film_tone(path);
+    let two = film_tone(2.0 * path);
+    let three = film_tone(3.0 * path);
+    let n = clamp(base_eta, vec3f(1.0), vec3f(BASE_IOR_CEILING));
+    let n2 = n * n;
+    let a = sqrt((n - 1.0) * (n + 1.0) + c1 * c1);
+    let r12_s = (c1 - q) / max(c1 + q, FILM_FLOOR);
+    let r12_p = (ior2 * c1 - q) / max(ior2 * c1 + q, FILM_FLOOR);
+    let r23_s = (q - a) / max(q + a, vec3f(FILM_FLOOR));
+    let r23_p = (n2 * q - ior2 * a) / max(n2 * q + ior2 * a, vec3f(FILM_FLOOR));
+    let both = film_sum(r12_s, r23_s, one, two, three) + film_sum(r12_p, r23_p, one, two, three);
+    return select(clamp(0.5 * both, vec3f(0.0), vec3f(1.0)), vec3f(1.0), q2 < 0.0);
+}
+
+/// The real part of each channel's response to exp(i k `path`): film_tones by dot products over four of the five lobes.
+fn film_tone(path: f32) -> vec3f {
+    let centres = vec4f(0.010258501116189029, 0.010910616526684985, 0.01405857181573468, 0.011209009787066005);
+    let deviations = vec4f(0.0004333990052411747, 0.0005365664975144916, 0.0006182748601196432, 0.0008357307798945551);
+    let spread = path * deviations;
+    // Half of log2(e).
+    let e = exp2(-0.72134752044448170368 * spread * spread) * cos(path * centres);
+    let last_spread = 0.0007077886426635069 * path;
+    let last = exp2(-0.72134752044448170368 * last_spread * last_spread) * cos(0.013915925235247472 * path);
+    return last * vec3f(-0.542815912, 0.045247421, 1.151138518) + vec3f(
+        dot(e, vec4f(1.341800362, 1.218921421, 0.519232538, -1.537138409)),
+        dot(e, vec4f(-0.401351635, -0.364596791, -0.155309862, 1.876010867)),
+        dot(e, vec4f(0.023040702, 0.020930688, 0.008915993, -0.204025901)),
+    );
+}
+
+/// Airy's sum of one polarisation with real amplitudes, as film_series.
+fn film_sum(r12: f32, r23: vec3f, one: vec3f, two: vec3f, three: vec3f) -> vec3f {
+    let z = -r12 * r23;
+    let t = 1.0 - r12 * r12;
+    let c = t * t * r23 * r23 / max(1.0 - z * z, vec3f(FILM_FLOOR));
+    let sum = z * (one + z * (two + z * three));
+    return r12 * r12 + c + 2.0 * (c - t) * sum;
 }
 
 /// Each channel's response to exp(i m k `path`), m = 1..3.
@@ -89,38 +150,23 @@ fn film_lobe(tones: FilmTones, path: f32, centre: f32, deviation: f32, weight: v
     );
 }
 
-/// One channel: the mean of both polarisations. `q` is the film's index times the cosine in it, `s2` the squared sine outside.
-fn film_channel(
-    r12: vec2f, ior2: f32, q: f32, s2: f32, base_eta: f32, base_k: f32, re: vec3f, im: vec3f,
-) -> f32 {
-    let n = clamp(base_eta, FILM_IOR_FLOOR, BASE_IOR_CEILING);
-    let k = clamp(base_k, 0.0, BASE_IOR_CEILING);
-    // (a + i b)^2 = (n + i k)^2 - s2, each root without cancellation as in f_conductor.
-    let nk = n * k;
-    let squared = vec2f(n * n - k * k, 2.0 * nk);
-    let t = squared.x - s2;
-    let greater = sqrt(0.5 * (sqrt(t * t + squared.y * squared.y) + abs(t)));
-    let smaller = nk / max(greater, FILM_FLOOR);
-    let ab = select(vec2f(greater, smaller), vec2f(smaller, greater), t < 0.0);
-    let s = film_quotient(vec2f(q, 0.0) - ab, vec2f(q, 0.0) + ab);
-    let p = film_quotient(squared * q - ior2 * ab, squared * q + ior2 * ab);
-    return 0.5 * (film_series(r12.x, s, re, im) + film_series(r12.y, p, re, im));
-}
-
-/// Quotient of two complex numbers; 0 / 0 is 0.
-fn film_quotient(x: vec2f, y: vec2f) -> vec2f {
-    return vec2f(dot(x, y), x.y * y.x - x.x * y.y) / max(dot(y, y), FILM_FLOOR * FILM_FLOOR);
-}
-
-/// Airy's sum of one polarisation seen by one channel: `re` and `im` are its response to the orders 1 to 3.
-fn film_series(r12: f32, r23: vec2f, re: vec3f, im: vec3f) -> f32 {
+/// Airy's sum of one polarisation in each channel: the film's amplitude is `r12`, the base's the quotient of the complex
+/// numbers x and y, where 0 / 0 is 0.
+fn film_series(r12: f32, x_re: vec3f, x_im: vec3f, y_re: vec3f, y_im: vec3f, tones: FilmTones) -> vec3f {
+    let inverse = 1.0 / max(y_re * y_re + y_im * y_im, vec3f(FILM_FLOOR * FILM_FLOOR));
+    let r23_re = (x_re * y_re + x_im * y_im) * inverse;
+    let r23_im = (x_im * y_re - x_re * y_im) * inverse;
     let big_r12 = r12 * r12;
-    let big_r23 = dot(r23, r23);
+    let big_r23 = r23_re * r23_re + r23_im * r23_im;
     let t = 1.0 - big_r12;
-    let c = t * t * big_r23 / max(1.0 - big_r12 * big_r23, FILM_FLOOR);
-    let z = -r12 * r23;
-    let z2 = vec2f(z.x * z.x - z.y * z.y, 2.0 * z.x * z.y);
-    let z3 = vec2f(z2.x * z.x - z2.y * z.y, z2.x * z.y + z2.y * z.x);
-    let sum = dot(vec3f(z.x, z2.x, z3.x), re) - dot(vec3f(z.y, z2.y, z3.y), im);
-    return big_r12 + c + 2.0 * (c - t) * sum;
+    let c = t * t * big_r23 / max(1.0 - big_r12 * big_r23, vec3f(FILM_FLOOR));
+    let z_re = -r12 * r23_re;
+    let z_im = -r12 * r23_im;
+    let z2_re = z_re * z_re - z_im * z_im;
+    let z2_im = 2.0 * z_re * z_im;
+    let z3_re = z2_re * z_re - z2_im * z_im;
+    let z3_im = z2_re * z_im + z2_im * z_re;
+    let re = z_re * tones.re1 + z2_re * tones.re2 + z3_re * tones.re3;
+    let im = z_im * tones.im1 + z2_im * tones.im2 + z3_im * tones.im3;
+    return big_r12 + c + 2.0 * (c - t) * (re - im);
 }

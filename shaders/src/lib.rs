@@ -42,6 +42,7 @@ pub const FILES: &[File] = files![
     "brdf/lobe_multiscatter.wgsl",
     "brdf/lobe_sheen.wgsl",
     "brdf/lobe_specular.wgsl",
+    "brdf/lobe_thin_film.wgsl",
     "brdf/lobe_transmission.wgsl",
     "brdf/metallic_roughness.wgsl",
     "brdf/multiscatter.wgsl",

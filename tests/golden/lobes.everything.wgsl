@@ -1,11 +1,9 @@
 // All lobes, made by Halfvector
 // serves: 2 directional lights, 1 point light, 3 spot lights, an environment, turned about +Y; returns display values
 //     through the tone map `pbr-neutral`
-// methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, coupling=view, dfg=table, prefilter=ggx,
-//     level_map=hermite, irradiance=cube
+// methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, compensation=turquin, coupling=view, dfg=table,
+//     prefilter=ggx, level_map=hermite, irradiance=cube, anisotropy=strips
 // left out: metal: metallic is 0: f0 comes from the index of refraction alone
-// left out: energy compensation: f0 is 0.040 and fixed: it would change radiance by less than 0.7 % of that of a
-//     uniform environment
 // left out: emission: it is 0
 // left out: occlusion: it is 1
 // left out: horizon: the shading normal is the geometry's: no reflection comes from below
@@ -39,21 +37,25 @@ struct Object {
 struct VertexInput {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
 }
 struct Varyings {
     @builtin(position) clip_position: vec4f,
     @location(0) world_position: vec3f,
     @location(1) world_normal: vec3f,
+    @location(2) world_tangent: vec4f,
 }
 
 @vertex
 fn vs_main(in: VertexInput) -> Varyings {
     let world_position = position_in_world(object.world_from_object, in.position);
     let world_normal = normal_in_world(object.normal_from_object, in.normal);
+    let world_tangent = tangent_in_world(object.world_from_object, in.tangent);
     var out: Varyings;
     out.clip_position = view.clip_from_world * vec4f(world_position, 1.0);
     out.world_position = world_position;
     out.world_normal = world_normal;
+    out.world_tangent = world_tangent;
     return out;
 }
 
@@ -62,10 +64,18 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let world_normal = normalize_or(in.world_normal, vec3f(0.0, 0.0, 1.0));
     let view_dir = normalize(view.camera_position - in.world_position);
     let frame = frame_from_normal(world_normal, view_dir);
-    let specular = Specular(vec3f(0.040000003), vec3f(1.0), alpha_from_perceptual_roughness(max(0.5, PUNCTUAL_ROUGHNESS_FLOOR)));
-    let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.5);
-    let diffuse = Diffuse(vec3f(0.7, 0.3, 0.2) * (1.0 - 0.4) * coupling_single(0.040000003, 1.0, dfg), 0.5);
-    let transmission = Transmission(vec3f(0.7, 0.3, 0.2) * 0.4, 1.5, alpha_from_perceptual_roughness(max(0.5, PUNCTUAL_ROUGHNESS_FLOOR)));
+    let tangent = anisotropic_tangent(frame.normal, in.world_tangent, 0.5);
+    let alphas = anisotropic_alphas_gltf(max(0.5, PUNCTUAL_ROUGHNESS_FLOOR), 0.6);
+    let specular_roughness = sqrt(sqrt(alphas.x * alphas.y));
+    let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, specular_roughness);
+    let film = ThinFilm(0.5, 1000.0 * 0.5, 1.4);
+    let film_cosine = thin_film_cosine(dfg);
+    let film_shift = thin_film_shift(vec3f(0.040000003), vec3f(1.0), film, film_cosine);
+    let film_through = thin_film_through(film_shift, vec3f(0.040000003), vec3f(1.0), film_cosine);
+    let specular = Anisotropic(vec3f(0.040000003) + film_shift, vec3f(1.0) + film_shift, tangent, alphas.x, alphas.y);
+    let compensation = energy_compensation(specular.f0, specular.f90, dfg);
+    let diffuse = Diffuse(vec3f(0.7, 0.3, 0.2) * (1.0 - 0.4) * coupling_colored(vec3f(0.040000003) + film_shift, vec3f(1.0) + film_shift, dfg), 0.5);
+    let transmission = Transmission(vec3f(0.7, 0.3, 0.2) * 0.4 * film_through, 1.5, alpha_from_perceptual_roughness(max(0.5, PUNCTUAL_ROUGHNESS_FLOOR)));
     let coat = Coat(0.8, vec3f(1.0, 0.9, 0.8), 0.040000003, alpha_from_perceptual_roughness(max(0.1, PUNCTUAL_ROUGHNESS_FLOOR)));
     let coat_dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.1);
     let under_coat = coat_base(coat, frame.n_dot_v, coat_dfg);
@@ -75,32 +85,40 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     var radiance = vec3f(0.0);
     for (var i = 0u; i < 2u; i++) {
         let light = directional_light_sample(lights.directional[i], in.world_position);
+        let light_film = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, half_from_light(frame, light.dir).l_dot_h);
         radiance += diffuse_eval(frame, light.dir, diffuse) * under_layers * light.illuminance;
-        radiance += specular_eval(frame, light.dir, specular) * under_layers * light.illuminance;
+        radiance += anisotropic_eval(frame, light.dir, Anisotropic(light_film, light_film, tangent, alphas.x, alphas.y)) * compensation * under_layers * light.illuminance;
         radiance += transmission_eval(frame, light.dir, transmission) * under_layers * light.illuminance;
         radiance += coat_eval(frame, light.dir, coat) * under_sheen * light.illuminance;
         radiance += sheen_eval(frame, light.dir, sheen) * light.illuminance;
     }
     let point_light = point_light_sample(lights.point, in.world_position);
+    let point_light_film = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, half_from_light(frame, point_light.dir).l_dot_h);
     radiance += diffuse_eval(frame, point_light.dir, diffuse) * under_layers * point_light.illuminance;
-    radiance += specular_eval(frame, point_light.dir, specular) * under_layers * point_light.illuminance;
+    radiance += anisotropic_eval(frame, point_light.dir, Anisotropic(point_light_film, point_light_film, tangent, alphas.x, alphas.y)) * compensation * under_layers * point_light.illuminance;
     radiance += transmission_eval(frame, point_light.dir, transmission) * under_layers * point_light.illuminance;
     radiance += coat_eval(frame, point_light.dir, coat) * under_sheen * point_light.illuminance;
     radiance += sheen_eval(frame, point_light.dir, sheen) * point_light.illuminance;
     for (var i = 0u; i < 3u; i++) {
         let light = spot_light_sample(lights.spot[i], in.world_position);
+        let light_film = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, half_from_light(frame, light.dir).l_dot_h);
         radiance += diffuse_eval(frame, light.dir, diffuse) * under_layers * light.illuminance;
-        radiance += specular_eval(frame, light.dir, specular) * under_layers * light.illuminance;
+        radiance += anisotropic_eval(frame, light.dir, Anisotropic(light_film, light_film, tangent, alphas.x, alphas.y)) * compensation * under_layers * light.illuminance;
         radiance += transmission_eval(frame, light.dir, transmission) * under_layers * light.illuminance;
         radiance += coat_eval(frame, light.dir, coat) * under_sheen * light.illuminance;
         radiance += sheen_eval(frame, light.dir, sheen) * light.illuminance;
     }
-    let reflection_dir = rotate_about_y(reflect(-frame.view_dir, frame.normal), view.environment_rotation);
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, rotate_about_y(frame.normal, view.environment_rotation), 0.0);
     radiance += diffuse_environment(diffuse, irradiance) * under_layers;
-    let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(0.5, view.environment_levels));
-    radiance += specular_environment(specular, reflection, dfg) * under_layers;
-    let transmitted = environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(transmission_direction(frame, transmission.eta), view.environment_rotation), lod_geometric(0.5, view.environment_levels));
+    var strips = vec4f(0.0);
+    for (var i = 0u; i < ANISOTROPIC_STRIPS; i++) {
+        let strip = anisotropic_strip(frame, tangent, alphas.x, alphas.y, f32(i));
+        strips += strip.weight * vec4f(environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(strip.dir, view.environment_rotation), lod_geometric(strip.perceptual_roughness, view.environment_levels)), 1.0);
+    }
+    let reflection = strips.rgb / strips.a;
+    radiance += anisotropic_environment(specular, reflection, dfg) * compensation * under_layers;
+    let behind = transmission_lookup(frame, transmission.eta, transmission.alpha);
+    let transmitted = environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(behind.dir, view.environment_rotation), lod_geometric(behind.perceptual_roughness, view.environment_levels));
     radiance += transmission_environment(transmission, 0.040000003, transmitted, dfg) * under_layers;
     let coat_mirror_dir = reflect(-frame.view_dir, frame.normal);
     let coat_reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(coat_mirror_dir, view.environment_rotation), lod_geometric(0.1, view.environment_levels));
@@ -110,23 +128,45 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     return vec4f(display, 1.0);
 }
 
+// ---- brdf/anisotropic.wgsl
+
+// Smallest denominator of D's root: reached only for alphas below 1e-9, makes the 0 / 0 of alpha = 0 a 0.
+const D_ANISOTROPIC_FLOOR: f32 = 1e-36;
+
+// Smallest denominator of V: keeps V <= 5e35 at n.l = n.v = 0.
+const V_ANISOTROPIC_FLOOR: f32 = 1e-36;
+
+/// Burley 2012, Physically-Based Shading at Disney (appendix B); Heitz 2014, equation 85:
+/// D = 1 / (pi alpha_t alpha_b ((t.h / alpha_t)^2 + (b.h / alpha_b)^2 + (n.h)^2)^2).
+///
+/// With s = alpha_t alpha_b and w = s / ((alpha_b t.h)^2 + (alpha_t b.h)^2 + (s n.h)^2) it is s w^2 / pi: no alpha is
+/// divided by, and no square leaves f32 (w <= 1 / s).
+fn d_ggx_anisotropic(h_in_tangent: vec3f, alpha_t: f32, alpha_b: f32) -> f32 {
+    let s = alpha_t * alpha_b;
+    let q = h_in_tangent * vec3f(alpha_b, alpha_t, s);
+    let w = s / max(dot(q, q), D_ANISOTROPIC_FLOOR);
+    return s * w * (w * INV_PI);
+}
+
+/// Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, equations 86 and 99 over 4 n.l n.v:
+/// V = 1/2 / (n.l |(alpha_t t.v, alpha_b b.v, n.v)| + n.v |(alpha_t t.l, alpha_b b.l, n.l)|).
+fn v_smith_ggx_anisotropic(view_in_tangent: vec3f, light_in_tangent: vec3f, alpha_t: f32, alpha_b: f32) -> f32 {
+    let widths = vec3f(alpha_t, alpha_b, 1.0);
+    let view = light_in_tangent.z * length(view_in_tangent * widths);
+    let light = view_in_tangent.z * length(light_in_tangent * widths);
+    return 0.5 / max(view + light, V_ANISOTROPIC_FLOOR);
+}
+
 // ---- brdf/coupling.wgsl
 
 // 1 less what a table of 45 x 45 texels may be too low by: so that base and interface do not gain.
 const ARRIVING: f32 = 0.9975;
 
-/// Share 1 - E_spec(v) of a diffuse BRDF that is left under an interface of reflectances f0 and f90 that scatters once:
-/// E_spec = f0 a + f90 b. Kulla and Conty 2017; OpenPBR 1.1 section 3. View-only.
-fn coupling_single(f0: f32, f90: f32, dfg: vec2f) -> f32 {
-    return saturate(ARRIVING - f0 * dfg.x - f90 * dfg.y);
-}
-
-// ---- brdf/dfg.wgsl
-
-/// Karis 2013, Real Shading in Unreal Engine 4: the share of uniform light that the specular lobe reflects to the
-/// viewer, f0 a + f90 b with dfg = (a, b).
-fn specular_albedo(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
-    return f0 * dfg.x + f90 * dfg.y;
+/// coupling_compensated of each channel: an interface under a film.
+fn coupling_colored(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
+    let average = f0 + (f90 - f0) * (1.0 / 21.0);
+    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
 }
 
 // ---- brdf/diffuse.wgsl
@@ -195,6 +235,13 @@ fn half_from_light(frame: Frame, dir: vec3f) -> Half {
 }
 
 // ---- brdf/fresnel.wgsl
+
+// Nearest that f0 / f90 comes to 1, where the index of refraction that it implies is infinite: 1 - 2^-20, an exact f32,
+// so that 1 - f0 / f90 is exact there too.
+const F0_CEILING: f32 = 0.99999904632568359375;
+
+// Smallest f90 divided by: 0 / 0 where a specular weight of 0 has scaled both f0 and f90 to nothing.
+const F90_FLOOR: f32 = 1e-30;
 
 // Largest index of refraction; its square must not overflow.
 const ETA_CEILING: f32 = 1e9;
@@ -266,6 +313,105 @@ fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) 
     let view = n_dot_l * sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v);
     let light = n_dot_v * sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l);
     return 0.5 / max(view + light, V_FLOOR);
+}
+
+// ---- brdf/lobe_anisotropic.wgsl
+
+// Lookups of an environment along the stretched highlight.
+const ANISOTROPIC_STRIPS: u32 = 5;
+
+/// Parameters of the anisotropic specular lobe.
+struct Anisotropic {
+    /// Reflectance at normal incidence.
+    f0: vec3f,
+    /// Reflectance at grazing incidence.
+    f90: vec3f,
+    /// Unit tangent across the normal, along which alpha_t counts, in world space.
+    tangent: vec3f,
+    /// Width along the tangent.
+    alpha_t: f32,
+    /// Width along the bitangent.
+    alpha_b: f32,
+}
+
+/// (alpha_t, alpha_b) of KHR_materials_anisotropy (Khronos 2023): alpha_t = mix(alpha, 1, anisotropy^2), alpha_b = alpha.
+fn anisotropic_alphas_gltf(perceptual_roughness: f32, anisotropy: f32) -> vec2f {
+    let r = saturate(perceptual_roughness);
+    let strength = saturate(anisotropy);
+    let alpha = r * r;
+    return vec2f(alpha + (1.0 - alpha) * strength * strength, alpha);
+}
+
+/// The unit direction across `normal` along which a surface is brushed: the mesh's tangent (w is the handedness of its
+/// bitangent), made perpendicular to the shading normal and turned by `rotation` [rad] towards the bitangent, as
+/// KHR_materials_anisotropy (Khronos 2023) counts it. A tangent of zero or along the normal is replaced by any other.
+fn anisotropic_tangent(normal: vec3f, tangent: vec4f, rotation: f32) -> vec3f {
+    let aside = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.x) > 0.7);
+    let other = normalize_or(aside - normal * dot(normal, aside), aside);
+    let t = normalize_or(tangent.xyz - normal * dot(normal, tangent.xyz), other);
+    let across = cross(normal, t);
+    let bitangent = select(across, -across, tangent.w < 0.0);
+    return cos(rotation) * t + sin(rotation) * bitangent;
+}
+
+/// D V F times n.l for the unit direction `l` to a light, in 1/sr; 0 where the light is behind the surface.
+fn anisotropic_eval(frame: Frame, l: vec3f, p: Anisotropic) -> vec3f {
+    let half = half_from_light(frame, l);
+    let bitangent = cross(frame.normal, p.tangent);
+    let h = normalize_or(frame.view_dir + l, vec3f(0.0));
+    let h_in_tangent = vec3f(dot(p.tangent, h), dot(bitangent, h), half.n_dot_h);
+    let view = vec3f(dot(p.tangent, frame.view_dir), dot(bitangent, frame.view_dir), frame.n_dot_v);
+    let light = vec3f(dot(p.tangent, l), dot(bitangent, l), half.n_dot_l);
+    let d = d_ggx_anisotropic(h_in_tangent, p.alpha_t, p.alpha_b);
+    let v = v_smith_ggx_anisotropic(view, light, p.alpha_t, p.alpha_b);
+    let f = f_schlick(p.f0, p.f90, half.l_dot_h);
+    return finite_or_zero(f * (v * half.n_dot_l * d));
+}
+
+/// One of the lookups of an environment that stand for an anisotropic highlight.
+struct AnisotropicStrip {
+    /// Unit direction of the lookup in world space.
+    dir: vec3f,
+    /// The roughness of the lookup.
+    perceptual_roughness: f32,
+    /// What it counts, above 0; the weights of all strips do not add up to 1.
+    weight: f32,
+}
+
+/// Strip `index` of 0 to ANISOTROPIC_STRIPS - 1: the stretched lobe as a row of round ones, side by side along the tangent.
+///
+/// The slopes of GGX along the tangent beyond those of the width across, of width sqrt(alpha_t^2 - alpha_b^2), have the
+/// density (1 + s^2)^(-3/2) / 2: the strips stand in the middles of equal parts of it, s = x / sqrt(1 - x^2), and mirror v
+/// each about its own half vector. A lobe's width is what is left across there, alpha_b sqrt(1 + s^2), less where v leans
+/// along the strips, and 0.2 of the gap to the next one. Constants are our own; the weight is n.l (Karis 2013).
+fn anisotropic_strip(frame: Frame, tangent: vec3f, alpha_t: f32, alpha_b: f32, index: f32) -> AnisotropicStrip {
+    let spread2 = max(alpha_t * alpha_t - alpha_b * alpha_b, 0.0);
+    let spread = sqrt(spread2);
+    let apart = spread2 / max(alpha_t * alpha_t, 1e-18);
+    let x = (2.0 * index + 1.0) / f32(ANISOTROPIC_STRIPS) - 1.0;
+    let widening2 = 1.0 / (1.0 - x * x);
+    let widening = sqrt(widening2);
+    let slope = spread * x * widening;
+    let cos_h = 1.0 / sqrt(1.0 + slope * slope);
+    let h = (frame.normal + slope * tangent) * cos_h;
+    let axis = (tangent - slope * frame.normal) * cos_h;
+    let v_dot_h = dot(frame.view_dir, h);
+    let dir = 2.0 * v_dot_h * h - frame.view_dir;
+    let lean = dot(frame.view_dir, axis);
+    let aside = dot(frame.view_dir, cross(frame.normal, tangent));
+    let across = 1.0 + (sqrt(max(1.0 - lean * lean, 1e-4)) - 1.0) * apart;
+    let gap2 = spread2 * widening2 * widening2 * widening2 * (cos_h * cos_h) * max(1.0 - aside * aside, 1e-4);
+    let width2 = alpha_b * alpha_b * (1.0 + (widening2 - 1.0) * apart) * across * across;
+    // 0.2 of the gap 2 / ANISOTROPIC_STRIPS in x, squared.
+    let alpha2 = (width2 + 0.0064 * gap2) * (cos_h * cos_h);
+    let weight = select(1e-3, max(dot(frame.normal, dir), 1e-3), v_dot_h > 0.0);
+    return AnisotropicStrip(dir, sqrt(sqrt(min(alpha2, 1.0))), weight);
+}
+
+/// Karis 2013, the split sum: prefiltered radiance of anisotropic_strip or of anisotropic_reflection times the lobe's directional albedo, taken as
+/// that of the width sqrt(alpha_t alpha_b).
+fn anisotropic_environment(p: Anisotropic, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
+    return finite_or_zero(prefiltered_radiance * (p.f0 * dfg.x + p.f90 * dfg.y));
 }
 
 // ---- brdf/lobe_coat.wgsl
@@ -390,34 +536,46 @@ fn sheen_base(p: Sheen, n_dot_v: f32) -> f32 {
     return saturate(1.0 - max(max(p.color.r, p.color.g), p.color.b) * albedo);
 }
 
-// ---- brdf/lobe_specular.wgsl
+// ---- brdf/lobe_thin_film.wgsl
 
-/// Parameters of the specular lobe.
-struct Specular {
-    /// Reflectance at normal incidence.
-    f0: vec3f,
-    /// Reflectance at grazing incidence.
-    f90: vec3f,
-    /// Square of the perceptual roughness.
-    alpha: f32,
+/// Parameters of the film.
+struct ThinFilm {
+    /// Presence of the film in [0, 1].
+    weight: f32,
+    /// Thickness [nm].
+    thickness: f32,
+    /// Index of refraction.
+    ior: f32,
 }
 
-/// Cook and Torrance 1982, A Reflectance Model for Computer Graphics: D V F times n.l for the unit direction `l` to a
-/// light, V = G / (4 n.l n.v), in 1/sr; 0 where the light is behind the surface.
-///
-/// V n.l is taken first: it is at most 1/2 / max(alpha, n.v), while V alone is infinite at n.l = n.v = 0.
-fn specular_eval(frame: Frame, l: vec3f, p: Specular) -> vec3f {
-    let h = half_from_light(frame, l);
-    let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
-    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
-    let f = f_schlick(p.f0, p.f90, h.l_dot_h);
-    return finite_or_zero(f * (v * h.n_dot_l * d));
+/// What the film adds to the reflectance at the cosine l.h of a base of reflectances f0 and f90, in [-1, 1]:
+/// weight (f90 F_film - F(f0, f90)). For the light of a whole lobe it is added to both f0 and f90.
+fn thin_film_shift(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
+    // ior_from_f0 of each channel.
+    let s2 = clamp(f0 / max(f90, vec3f(F90_FLOOR)), vec3f(0.0), vec3f(F0_CEILING));
+    let s = 1.0 + sqrt(s2);
+    let film = f_thin_film_dielectric(p.ior, p.thickness, s * s / (1.0 - s2), l_dot_h);
+    return saturate(p.weight) * (f90 * film - f_schlick(f0, f90, l_dot_h));
 }
 
-/// Karis 2013, Real Shading in Unreal Engine 4, the split sum: prefiltered radiance of the mirror direction times the
-/// lobe's directional albedo.
-fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg));
+/// Reflectance at the cosine l.h, `p.weight` of the base under the film: F(f0, f90) + thin_film_shift. It takes the place of
+/// f0 and of f90 in a lobe lit from one direction.
+fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
+    return f_schlick(f0, f90, l_dot_h) + thin_film_shift(f0, f90, p, l_dot_h);
+}
+
+/// The cosine l.h at which Schlick's F is the lobe's mean, from the split-sum pair: b / (a + b) is the mean of
+/// (1 - l.h)^5. An environment meets the film at it; on a smooth surface it is n.v.
+fn thin_film_cosine(dfg: vec2f) -> f32 {
+    let mean = clamp(dfg.y / max(dfg.x + dfg.y, 1e-6), 1e-30, 1.0);
+    return 1.0 - exp2(0.2 * log2(mean));
+}
+
+/// What a film that adds `shift` to the reflectance changes of the light that passes the base: (1 - F - shift) / (1 - F), all
+/// at one cosine. Held in [0, 4].
+fn thin_film_through(shift: vec3f, f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
+    let bare = f_schlick(f0, f90, l_dot_h);
+    return clamp(1.0 - shift / max(1.0 - bare, vec3f(1e-3)), vec3f(0.0), vec3f(4.0));
 }
 
 // ---- brdf/lobe_transmission.wgsl
@@ -467,11 +625,45 @@ fn transmission_direction(frame: Frame, eta: f32) -> vec3f {
     return normalize_or(frame.normal * along - frame.view_dir * inv_eta, -frame.normal);
 }
 
+/// One lookup of an environment through a surface.
+struct TransmissionLookup {
+    /// Unit direction of the lookup in world space.
+    dir: vec3f,
+    /// The roughness of the lookup.
+    perceptual_roughness: f32,
+}
+
+/// Where and how wide an environment is looked up for solid transmission. The microfacets that the viewer sees lean to
+/// them: v is refracted about n + alpha (v - n.v n). A facet turned by an angle turns the refracted ray by
+/// X = cos_t - n.v / eta of it out of its plane and by X / cos_t within, a reflected one by twice the angle: the lobe is as
+/// wide as a reflection's of alpha X / (2 sqrt(cos_t)). 0.45 in the place of 1/2 and the lean are fitted to the integral.
+fn transmission_lookup(frame: Frame, eta: f32, alpha: f32) -> TransmissionLookup {
+    let leaning = frame.normal + alpha * (frame.view_dir - frame.n_dot_v * frame.normal);
+    let facet = frame_from_normal(normalize_or(leaning, frame.normal), frame.view_dir);
+    let dir = transmission_direction(facet, eta);
+    let cos_t = clamp(-dot(facet.normal, dir), 0.01, 1.0);
+    let turn = abs(cos_t - facet.n_dot_v / max(eta, 1e-6));
+    return TransmissionLookup(dir, sqrt(saturate(0.45 * alpha * turn / sqrt(cos_t))));
+}
+
 /// Radiance that arrives through the surface from an environment: color (1 - f0 a - b) times the radiance of
-/// transmission_direction, filtered by the lobe's roughness, with the split-sum pair `dfg` and the interface's f0.
+/// transmission_lookup, or of -v at the roughness itself for a thin wall, with the split-sum pair `dfg` and the interface's f0.
 /// The compression by eta^2 is left out: a ray that enters a body leaves it again.
 fn transmission_environment(p: Transmission, f0: f32, transmitted_radiance: vec3f, dfg: vec2f) -> vec3f {
     return finite_or_zero(p.color * saturate(1.0 - f0 * dfg.x - dfg.y) * transmitted_radiance);
+}
+
+// ---- brdf/multiscatter.wgsl
+
+// Smallest albedo divided by. GGX's smallest is 1 - ln 2 = 0.307 (alpha 1, n.v 1); only an empty table is below this.
+const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
+
+/// Turquin 2019, Practical Multiple Scattering Compensation for Microfacet Models: the factor 1 + f0 (1/E - 1) on the
+/// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
+/// signature.
+fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
+    let gain = 1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0) - 1.0;
+    return 1.0 + saturate(f0) * gain;
 }
 
 // ---- brdf/sheen.wgsl
@@ -507,6 +699,77 @@ fn v_neubelt(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
     return 0.25 / max(n_dot_l + n_dot_v - n_dot_l * n_dot_v, NEUBELT_FLOOR);
 }
 
+// ---- brdf/thin_film.wgsl
+
+// Below this thickness [nm] the film's index goes to the outside's, so that a film of no thickness is none.
+const FADE_THICKNESS: f32 = 30.0;
+
+// Thickest film [nm]: from a few micrometres on all colours have merged and the result no longer changes.
+const THICKNESS_CEILING: f32 = 1e5;
+
+// Range of the film's index.
+const FILM_IOR_CEILING: f32 = 10.0;
+
+// Smallest index of film and base that is divided by.
+const FILM_IOR_FLOOR: f32 = 1e-3;
+
+// Largest index and extinction of the base; the fourth power must not overflow.
+const BASE_IOR_CEILING: f32 = 1e6;
+
+// Smallest denominator.
+const FILM_FLOOR: f32 = 1e-18;
+
+/// f_thin_film on a dielectric base, of index `base_eta` from 1 up: all amplitudes are real there, which is a third of the
+/// work.
+fn f_thin_film_dielectric(film_ior: f32, thickness: f32, base_eta: vec3f, cos_theta: f32) -> vec3f {
+    let c1 = clamp(cos_theta, 0.0, 1.0);
+    let depth = clamp(thickness, 0.0, THICKNESS_CEILING);
+    let present = min(depth * (1.0 / FADE_THICKNESS), 1.0);
+    let fade = present * present * (3.0 - 2.0 * present);
+    let ior = 1.0 + fade * (clamp(film_ior, FILM_IOR_FLOOR, FILM_IOR_CEILING) - 1.0);
+    let q2 = (ior - 1.0) * (ior + 1.0) + c1 * c1;
+    let q = sqrt(max(q2, 0.0));
+    let ior2 = ior * ior;
+    let path = 2.0 * depth * q;
+    let one = film_tone(path);
+    let two = film_tone(2.0 * path);
+    let three = film_tone(3.0 * path);
+    let n = clamp(base_eta, vec3f(1.0), vec3f(BASE_IOR_CEILING));
+    let n2 = n * n;
+    let a = sqrt((n - 1.0) * (n + 1.0) + c1 * c1);
+    let r12_s = (c1 - q) / max(c1 + q, FILM_FLOOR);
+    let r12_p = (ior2 * c1 - q) / max(ior2 * c1 + q, FILM_FLOOR);
+    let r23_s = (q - a) / max(q + a, vec3f(FILM_FLOOR));
+    let r23_p = (n2 * q - ior2 * a) / max(n2 * q + ior2 * a, vec3f(FILM_FLOOR));
+    let both = film_sum(r12_s, r23_s, one, two, three) + film_sum(r12_p, r23_p, one, two, three);
+    return select(clamp(0.5 * both, vec3f(0.0), vec3f(1.0)), vec3f(1.0), q2 < 0.0);
+}
+
+/// The real part of each channel's response to exp(i k `path`): film_tones by dot products over four of the five lobes.
+fn film_tone(path: f32) -> vec3f {
+    let centres = vec4f(0.010258501116189029, 0.010910616526684985, 0.01405857181573468, 0.011209009787066005);
+    let deviations = vec4f(0.0004333990052411747, 0.0005365664975144916, 0.0006182748601196432, 0.0008357307798945551);
+    let spread = path * deviations;
+    // Half of log2(e).
+    let e = exp2(-0.72134752044448170368 * spread * spread) * cos(path * centres);
+    let last_spread = 0.0007077886426635069 * path;
+    let last = exp2(-0.72134752044448170368 * last_spread * last_spread) * cos(0.013915925235247472 * path);
+    return last * vec3f(-0.542815912, 0.045247421, 1.151138518) + vec3f(
+        dot(e, vec4f(1.341800362, 1.218921421, 0.519232538, -1.537138409)),
+        dot(e, vec4f(-0.401351635, -0.364596791, -0.155309862, 1.876010867)),
+        dot(e, vec4f(0.023040702, 0.020930688, 0.008915993, -0.204025901)),
+    );
+}
+
+/// Airy's sum of one polarisation with real amplitudes, as film_series.
+fn film_sum(r12: f32, r23: vec3f, one: vec3f, two: vec3f, three: vec3f) -> vec3f {
+    let z = -r12 * r23;
+    let t = 1.0 - r12 * r12;
+    let c = t * t * r23 * r23 / max(1.0 - z * z, vec3f(FILM_FLOOR));
+    let sum = z * (one + z * (two + z * three));
+    return r12 * r12 + c + 2.0 * (c - t) * sum;
+}
+
 // ---- color.wgsl
 
 /// sRGB-encoded from linear. IEC 61966-2-1:1999, section 5.2:
@@ -529,6 +792,14 @@ fn position_in_world(world_from_object: mat4x4f, position: vec3f) -> vec3f {
 /// for flat transforms too. A vertex without a normal gives zero, which the interpolation then ignores.
 fn normal_in_world(normal_from_object: mat3x3f, normal: vec3f) -> vec3f {
     return normalize_or(normal_from_object * normal, vec3f(0.0));
+}
+
+/// A tangent of the object in world space, unit, with the handedness in w: a tangent lies in the surface, so M carries it.
+/// A transform that mirrors (det M < 0) turns cross(N, T) over, and so the handedness.
+fn tangent_in_world(world_from_object: mat4x4f, tangent: vec4f) -> vec4f {
+    let m = mat3x3f(world_from_object[0].xyz, world_from_object[1].xyz, world_from_object[2].xyz);
+    let handedness = select(tangent.w, -tangent.w, determinant(m) < 0.0);
+    return vec4f(normalize_or(m * tangent.xyz, vec3f(0.0)), handedness);
 }
 
 // ---- ibl/environment.wgsl

@@ -37,6 +37,14 @@ pub fn coupling_compensated<R: Real>(f0: R, f90: R, dfg: [R; 2]) -> R {
     (R::of(ARRIVING) - single * (R::ONE + average * gain)).clamp(R::ZERO, R::ONE)
 }
 
+/// [`coupling_compensated`] of each channel: an interface under a film.
+///
+/// Domain and edges: as [`coupling_single`].
+#[inline]
+pub fn coupling_colored<R: Real>(f0: [R; 3], f90: [R; 3], dfg: [R; 2]) -> [R; 3] {
+    [0, 1, 2].map(|i| coupling_compensated(f0[i], f90[i], dfg))
+}
+
 /// What makes the coupling reciprocal: (1 - E_spec(l)) / (1 - E_spec,avg) for a light whose split-sum pair is `dfg`; times
 /// [`coupling_single`] of the viewer. Shirley, Smits, Hu, Lafortune 1997, A Practitioners' Assessment of Light Reflection
 /// Models; Kelemen and Szirmay-Kalos 2001.

@@ -39,6 +39,7 @@ pub mod lobe_multiscatter;
 pub mod lobe_sampling;
 pub mod lobe_sheen;
 pub mod lobe_specular;
+pub mod lobe_thin_film;
 pub mod lobe_transmission;
 pub mod math;
 pub mod metallic_roughness;

@@ -7,6 +7,9 @@ use crate::fresnel::f_schlick;
 use crate::math::{finite_or_zero, normalize_or};
 use crate::vector::{add, cross, dot, scale};
 
+/// Lookups of an environment along the stretched highlight.
+pub const ANISOTROPIC_STRIPS: u32 = 5;
+
 /// Parameters of the anisotropic specular lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anisotropic<R> {
@@ -43,6 +46,23 @@ pub fn anisotropic_alphas_openpbr<R: Real>(perceptual_roughness: R, anisotropy: 
     let q = R::ONE - anisotropy.clamp(R::ZERO, R::ONE);
     let alpha_t = r * r * (R::of(2.0) / (R::ONE + q * q)).sqrt();
     [alpha_t, q * alpha_t]
+}
+
+/// The unit direction across `normal` along which a surface is brushed: the mesh's tangent (w is the handedness of its
+/// bitangent), made perpendicular to the shading normal and turned by `rotation` [rad] towards the bitangent, as
+/// KHR_materials_anisotropy (Khronos 2023) counts it.
+///
+/// Domain: `normal` unit, any tangent. One of zero or along the normal is replaced by any other direction across it.
+#[inline]
+pub fn anisotropic_tangent<R: Real>(normal: [R; 3], tangent: [R; 4], rotation: R) -> [R; 3] {
+    let [x, y, z, handedness] = tangent;
+    let flat = |v: [R; 3]| add(v, scale(normal, -dot(normal, v)));
+    let is_x = R::of(0.7).lt(normal[0].abs());
+    let aside = [R::choose(is_x, R::ZERO, R::ONE), R::choose(is_x, R::ONE, R::ZERO), R::ZERO];
+    let t = normalize_or(flat([x, y, z]), normalize_or(flat(aside), aside));
+    let side = R::choose(handedness.lt(R::ZERO), -R::ONE, R::ONE);
+    let (sin, cos) = rotation.sin_cos();
+    add(scale(t, cos), scale(cross(normal, t), side * sin))
 }
 
 /// D V F times n.l for the unit direction `l` to a light, in 1/sr; 0 where the light is behind the surface.
@@ -86,8 +106,66 @@ pub fn anisotropic_reflection<R: Real>(
     add(scale(normal, twice), scale(frame.view_dir, -R::ONE))
 }
 
-/// Karis 2013, the split sum: prefiltered radiance of [`anisotropic_reflection`] times the lobe's directional albedo, taken
-/// as that of the width sqrt(alpha_t alpha_b).
+/// One of the lookups of an environment that stand for an anisotropic highlight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnisotropicStrip<R> {
+    /// Unit direction of the lookup in world space.
+    pub dir: [R; 3],
+    /// The roughness of the lookup.
+    pub perceptual_roughness: R,
+    /// What it counts, above 0; the weights of all strips do not add up to 1.
+    pub weight: R,
+}
+
+/// Strip `index` of 0 to [`ANISOTROPIC_STRIPS`] - 1: the stretched lobe as a row of round ones, side by side along the
+/// tangent.
+///
+/// The slopes of GGX along the tangent beyond those of the width across, of width sqrt(alpha_t^2 - alpha_b^2), have the
+/// density (1 + s^2)^(-3/2) / 2: the strips stand in the middles of equal parts of it, s = x / sqrt(1 - x^2), and mirror v
+/// each about its own half vector. A lobe's width is what is left across there, alpha_b sqrt(1 + s^2), less where v leans
+/// along the strips, and 0.2 of the gap to the next one. Constants are our own; the weight is n.l (Karis 2013).
+///
+/// alpha_t = alpha_b gives the mirror direction and alpha_b for every strip. Domain: alphas in [0, 1], alpha_t >= alpha_b
+/// (else as if equal), a unit tangent across the normal. The roughness is in [0, 1].
+#[inline]
+pub fn anisotropic_strip<R: Real>(
+    frame: Frame<R>,
+    tangent: [R; 3],
+    alpha_t: R,
+    alpha_b: R,
+    index: R,
+) -> AnisotropicStrip<R> {
+    let one = R::ONE;
+    let spread2 = (alpha_t * alpha_t - alpha_b * alpha_b).max(R::ZERO);
+    let spread = spread2.sqrt();
+    let apart = spread2 / (alpha_t * alpha_t).max(R::of(1e-18));
+    let x = (R::of(2.0) * index + one) / R::of(f64::from(ANISOTROPIC_STRIPS)) - one;
+    let widening2 = one / (one - x * x);
+    let widening = widening2.sqrt();
+    let slope = spread * x * widening;
+    let cos_h = one / (one + slope * slope).sqrt();
+    let h = scale(add(frame.normal, scale(tangent, slope)), cos_h);
+    let axis = scale(add(tangent, scale(frame.normal, -slope)), cos_h);
+    let v_dot_h = dot(frame.view_dir, h);
+    let dir = add(scale(h, R::of(2.0) * v_dot_h), scale(frame.view_dir, -one));
+    let lean = dot(frame.view_dir, axis);
+    let aside = dot(frame.view_dir, cross(frame.normal, tangent));
+    let least = R::of(1e-4);
+    let across = one + ((one - lean * lean).max(least).sqrt() - one) * apart;
+    let gap2 = spread2 * widening2 * widening2 * widening2 * (cos_h * cos_h) * (one - aside * aside).max(least);
+    let width2 = alpha_b * alpha_b * (one + (widening2 - one) * apart) * across * across;
+    // 0.2 of the gap 2 / ANISOTROPIC_STRIPS in x, squared.
+    let alpha2 = (width2 + R::of(0.0064) * gap2) * (cos_h * cos_h);
+    let weight = dot(frame.normal, dir).max(R::of(1e-3));
+    AnisotropicStrip {
+        dir,
+        perceptual_roughness: alpha2.min(one).sqrt().sqrt(),
+        weight: R::choose(R::ZERO.lt(v_dot_h), weight, R::of(1e-3)),
+    }
+}
+
+/// Karis 2013, the split sum: prefiltered radiance of [`anisotropic_strip`] or of [`anisotropic_reflection`] times the
+/// lobe's directional albedo, taken as that of the width sqrt(alpha_t alpha_b).
 ///
 /// Any input gives a finite result: a channel that would be NaN or infinite is 0.
 #[inline]

@@ -68,7 +68,6 @@ const LOBE_WEIGHTS: [[f64; 5]; 3] = [
 #[inline]
 pub fn f_thin_film<R: Real>(film_ior: R, thickness: R, base_eta: [R; 3], base_k: [R; 3], cos_theta: R) -> [R; 3] {
     let c1 = cos_theta.clamp(R::ZERO, R::ONE);
-    let s2 = (R::ONE - c1) * (R::ONE + c1);
     let thickness = thickness.clamp(R::ZERO, R::of(THICKNESS_CEILING));
     let present = (thickness * R::of(1.0 / FADE_THICKNESS)).min(R::ONE);
     let fade = present * present * (R::of(3.0) - R::of(2.0) * present);
@@ -81,12 +80,19 @@ pub fn f_thin_film<R: Real>(film_ior: R, thickness: R, base_eta: [R; 3], base_k:
     let r12 = [(c1 - q) / (c1 + q).max(floor), (ior2 * c1 - q) / (ior2 * c1 + q).max(floor)];
     let tones = tones(R::of(2.0) * thickness * q);
     let reflectance = |channel: usize| {
-        let base = amplitudes(ior2, q, s2, base_eta[channel], base_k[channel]);
+        let base = amplitudes(ior2, q, c1, base_eta[channel], base_k[channel]);
         let tones = tones.map(|order| order[channel]);
         let both = film_series(r12[0], base[0], tones) + film_series(r12[1], base[1], tones);
         R::choose(q2.lt(R::ZERO), R::ONE, (R::of(0.5) * both).clamp(R::ZERO, R::ONE))
     };
     [reflectance(0), reflectance(1), reflectance(2)]
+}
+
+/// [`f_thin_film`] on a dielectric base, of index `base_eta` from 1 up: all amplitudes are real there, which is a third of
+/// the work for a shader.
+#[inline]
+pub fn f_thin_film_dielectric<R: Real>(film_ior: R, thickness: R, base_eta: [R; 3], cos_theta: R) -> [R; 3] {
+    f_thin_film(film_ior, thickness, base_eta.map(|n| n.max(R::ONE)), [R::ZERO; 3], cos_theta)
 }
 
 /// Each channel's response to exp(i m k `path`), m = 1..3: by order and channel, real and imaginary part.
@@ -109,16 +115,17 @@ fn tones<R: Real>(path: R) -> [[[R; 2]; 3]; 3] {
     sums
 }
 
-/// Amplitudes of reflection at the base, both polarisations, complex. `q` is the film's index times the cosine in it, `s2`
-/// the squared sine outside.
+/// Amplitudes of reflection at the base, both polarisations, complex. `q` is the film's index times the cosine in it, `c1`
+/// the cosine outside.
 #[inline]
-fn amplitudes<R: Real>(ior2: R, q: R, s2: R, base_eta: R, base_k: R) -> [[R; 2]; 2] {
+fn amplitudes<R: Real>(ior2: R, q: R, c1: R, base_eta: R, base_k: R) -> [[R; 2]; 2] {
     let n = base_eta.clamp(R::of(FILM_IOR_FLOOR), R::of(BASE_IOR_CEILING));
     let k = base_k.clamp(R::ZERO, R::of(BASE_IOR_CEILING));
-    // (a + i b)^2 = (n + i k)^2 - s2, each root without cancellation as in f_conductor.
+    // (a + i b)^2 = (n + i k)^2 - 1 + c1^2, each root without cancellation as in f_conductor. A base of nearly the index
+    // outside has a = c1 at grazing incidence: 1 - c1^2 would have lost it.
     let nk = n * k;
     let squared = [n * n - k * k, R::of(2.0) * nk];
-    let t = squared[0] - s2;
+    let t = (n - R::ONE) * (n + R::ONE) + c1 * c1 - k * k;
     let modulus = (t * t + squared[1] * squared[1]).sqrt();
     let greater = (R::of(0.5) * (modulus + t.abs())).sqrt();
     let smaller = nk / greater.max(R::of(FILM_FLOOR));

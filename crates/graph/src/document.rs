@@ -68,11 +68,14 @@ pub struct SurfaceSettings {
     pub alpha_cutoff: f32,
     /// Back faces are drawn too, with the shading normal turned to the viewer.
     pub double_sided: bool,
+    /// What transmits light is a sheet, which light leaves in the direction in which it came, and not the surface of a
+    /// solid body, which refracts it (`geometry_thin_walled` of OpenPBR).
+    pub thin_walled: bool,
 }
 
 impl Default for SurfaceSettings {
     fn default() -> Self {
-        SurfaceSettings { alpha_mode: AlphaMode::Opaque, alpha_cutoff: 0.5, double_sided: false }
+        SurfaceSettings { alpha_mode: AlphaMode::Opaque, alpha_cutoff: 0.5, double_sided: false, thin_walled: false }
     }
 }
 

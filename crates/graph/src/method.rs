@@ -179,6 +179,23 @@ pub const TERMS: &[Term] = &[
         report: "none",
     },
     Term {
+        name: "anisotropy",
+        help: "the environment's reflection on a brushed surface",
+        methods: &[
+            method(
+                "strips",
+                Some("anisotropic_strip"),
+                "five lookups along the tangent, each as narrow as the lobe is across",
+            ),
+            method(
+                "bent",
+                Some("anisotropic_reflection"),
+                "Khronos 2023, after McAuley 2015: one lookup about a bent normal",
+            ),
+        ],
+        report: "strips",
+    },
+    Term {
         name: "normal",
         help: "normal mapping",
         methods: &[

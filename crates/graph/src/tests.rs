@@ -149,11 +149,14 @@ fn any_parameter() -> impl Strategy<Value = Parameter> {
 }
 
 fn any_settings() -> impl Strategy<Value = SurfaceSettings> {
-    (0..3usize, any_number(), any::<bool>()).prop_map(|(mode, alpha_cutoff, double_sided)| SurfaceSettings {
-        alpha_mode: [AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend][mode],
-        alpha_cutoff,
-        double_sided,
-    })
+    (0..3usize, any_number(), any::<bool>(), any::<bool>()).prop_map(
+        |(mode, alpha_cutoff, double_sided, thin_walled)| SurfaceSettings {
+            alpha_mode: [AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend][mode],
+            alpha_cutoff,
+            double_sided,
+            thin_walled,
+        },
+    )
 }
 
 fn any_rect() -> impl Strategy<Value = Rect> {

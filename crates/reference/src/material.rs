@@ -265,14 +265,19 @@ impl Material {
             .collect();
         let mut evaluator = self.evaluator(name)?;
         evaluator.run(&points, None)?;
-        for (member, neutral) in UNMODELLED {
+        let is_set = |member: &str, neutral: f64| {
             let slot = self.program.outputs().iter().position(|slot| slot.name == member);
-            let Some(OutputColumn::Float(numbers)) = slot.map(|slot| &evaluator.results.columns[slot]) else {
-                continue;
-            };
-            if numbers.iter().any(|x| *x != neutral) {
-                notes.push(format!("the reference leaves out `{member}` of the material `{name}`"));
+            let column = slot.map(|slot| &evaluator.results.columns[slot]);
+            matches!(column, Some(OutputColumn::Float(numbers)) if numbers.iter().any(|x| *x != neutral))
+        };
+        let mut note = |what: &str| notes.push(format!("the reference leaves out `{what}` of the material `{name}`"));
+        for (member, neutral) in UNMODELLED {
+            if is_set(member, neutral) {
+                note(member);
             }
+        }
+        if self.settings.thin_walled && is_set("transmission_weight", 0.0) {
+            note("thin_walled");
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 pub mod brdf;
 pub mod energy;
 pub mod ibl;
+pub mod lobes;
 pub mod maps;
 pub mod mips;
 pub mod precision;
@@ -41,5 +42,6 @@ pub const PARTS: &[Part] = &[
     Part { name: "maps", rows: maps::rows },
     Part { name: "mips", rows: mips::rows },
     Part { name: "ibl", rows: ibl::rows },
+    Part { name: "lobes", rows: lobes::rows },
     Part { name: "precision", rows: precision::rows },
 ];

@@ -36,6 +36,16 @@ struct Surface {
     sheen_roughness: f32,
     /// part of the dielectric base that lets light through
     transmission_weight: f32,
+    /// how far the base's highlight is stretched along the tangent
+    anisotropy: f32,
+    /// turn of that direction from the tangent towards the bitangent [rad]
+    anisotropy_rotation: f32,
+    /// presence of a thin film on the base
+    thin_film_weight: f32,
+    /// thickness of the film [um]
+    thin_film_thickness: f32,
+    /// index of refraction of the film
+    thin_film_ior: f32,
 }
 
 /// Surface
@@ -44,7 +54,9 @@ struct Surface {
 /// the albedo of a dielectric and the f0 of a metal; a dielectric's f0 is ((ior - 1) / (ior + 1))^2 times the specular weight. Above the base lies the coat,
 /// above the coat the sheen; each takes from what lies below it, emission too, what it reflects. Coat as in OpenPBR 1.1
 /// (Academy Software Foundation 2024), sheen as in KHR_materials_sheen (Khronos 2020). Transmission shows the environment
-/// through the surface of a solid body: refracted once, tinted by the base colour.
+/// through the surface of a solid body: refracted once, tinted by the base colour; or, where the document's `thin_walled` says
+/// so, straight through a sheet. Anisotropy is KHR_materials_anisotropy's (Khronos 2023): the highlight's width along the tangent goes from alpha
+/// to 1 with the square of the strength, across it stays alpha. The thin film is OpenPBR's, between the base and the coat.
 /// @node surface/surface   @also material, output, principled, pbr, metallic roughness
 /// - base_color: albedo, or a metal's reflectance, linear Rec. 709 [0.8,0.8,0.8; 0..1; color]
 /// - metallic: 0 dielectric, 1 metal [0; 0..1]
@@ -64,6 +76,11 @@ struct Surface {
 /// - sheen_color: reflectance of the fuzz of cloth, linear Rec. 709; black is none [0,0,0; 0..1; color]
 /// - sheen_roughness: 0 only at the rim, 1 all over [0.3; 0..1]
 /// - transmission_weight: part of the dielectric base that lets light through instead of scattering it [0; 0..1]
+/// - anisotropy: how far the base's highlight is stretched along the tangent, as on brushed metal; 0 is round [0; 0..1]
+/// - anisotropy_rotation: turn of that direction from the tangent towards the bitangent [0; -3.1416..3.1416; rad]
+/// - thin_film_weight: presence of a thin film on the base, whose two sides' reflections interfere [0; 0..1]
+/// - thin_film_thickness: thickness of the film, micrometres [0.5; 0..1; um]
+/// - thin_film_ior: index of refraction of the film [1.4; 1..3]
 fn node_surface_surface(
     base_color: vec3f,
     metallic: f32,
@@ -83,6 +100,11 @@ fn node_surface_surface(
     sheen_color: vec3f,
     sheen_roughness: f32,
     transmission_weight: f32,
+    anisotropy: f32,
+    anisotropy_rotation: f32,
+    thin_film_weight: f32,
+    thin_film_thickness: f32,
+    thin_film_ior: f32,
 ) -> Surface {
     return Surface(
         base_color,
@@ -103,5 +125,10 @@ fn node_surface_surface(
         sheen_color,
         sheen_roughness,
         transmission_weight,
+        anisotropy,
+        anisotropy_rotation,
+        thin_film_weight,
+        thin_film_thickness,
+        thin_film_ior,
     );
 }

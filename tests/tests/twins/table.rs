@@ -2,7 +2,7 @@
 //! how far apart they may be. A test proves that no function is missing.
 
 use halfvector_brdf::frame::{Frame, frame_from_normal, half_from_light};
-use halfvector_brdf::lobe_anisotropic::{self, Anisotropic};
+use halfvector_brdf::lobe_anisotropic::{self, Anisotropic, AnisotropicStrip};
 use halfvector_brdf::lobe_coat::{Coat, coat_base, coat_environment, coat_eval};
 use halfvector_brdf::lobe_diffuse::{Diffuse, diffuse_environment, diffuse_eval};
 use halfvector_brdf::lobe_multiscatter::{
@@ -10,8 +10,12 @@ use halfvector_brdf::lobe_multiscatter::{
 };
 use halfvector_brdf::lobe_sheen::{self, Sheen};
 use halfvector_brdf::lobe_specular::{Specular, specular_environment, specular_eval};
+use halfvector_brdf::lobe_thin_film::{
+    ThinFilm, thin_film_cosine, thin_film_fresnel, thin_film_shift, thin_film_through,
+};
 use halfvector_brdf::lobe_transmission::{
-    Transmission, transmission_direction, transmission_environment, transmission_eval, transmission_thin_eval,
+    Transmission, TransmissionLookup, f0_of_sheet, transmission_direction, transmission_environment, transmission_eval,
+    transmission_lookup, transmission_thin_eval,
 };
 use halfvector_brdf::{
     anisotropic, beckmann, coupling, dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter, sheen,
@@ -53,10 +57,10 @@ pub(crate) const WGSL_ONLY: &[(&str, &str)] = &[
     ("dfg_from_table", "takes a texture"),
     ("environment_sample", "takes a texture"),
     ("environment_sample_hermite", "takes a texture"),
-    ("film_channel", "private in Rust: compared through f_thin_film"),
     ("film_lobe", "private in Rust: compared through f_thin_film"),
-    ("film_quotient", "private in Rust: compared through f_thin_film"),
     ("film_series", "private in Rust: compared through f_thin_film"),
+    ("film_sum", "private in Rust: compared through f_thin_film_dielectric"),
+    ("film_tone", "private in Rust: compared through f_thin_film_dielectric"),
     ("film_tones", "private in Rust: compared through f_thin_film"),
     ("fon", "private in Rust: compared through diffuse_fon"),
     ("fon_g_over_pi_fit", "private in Rust: compared through directional_albedo_fon"),
@@ -117,12 +121,26 @@ fn anisotropic_lobe(x: &[f64], at: usize) -> Anisotropic<f64> {
     Anisotropic { f0: v(x, at), f90: v(x, at + 3), tangent: v(x, at + 6), alpha_t, alpha_b }
 }
 
+fn strip(s: AnisotropicStrip<f64>) -> [f64; 5] {
+    let [x, y, z] = s.dir;
+    [x, y, z, s.perceptual_roughness, s.weight]
+}
+
+fn looked_up(t: TransmissionLookup<f64>) -> [f64; 4] {
+    let [x, y, z] = t.dir;
+    [x, y, z, t.perceptual_roughness]
+}
+
 fn sheen_lobe(x: &[f64]) -> Sheen<f64> {
     Sheen { color: v(x, 0), perceptual_roughness: x[3] }
 }
 
 fn coat(x: &[f64], at: usize) -> Coat<f64> {
     Coat { weight: x[at], color: v(x, at + 1), f0: x[at + 4], alpha: x[at + 5] }
+}
+
+fn film(x: &[f64], at: usize) -> ThinFilm<f64> {
+    ThinFilm { weight: x[at], thickness: x[at + 1], ior: x[at + 2] }
 }
 
 fn transmitted(x: &[f64], at: usize) -> Transmission<f64> {
@@ -148,6 +166,7 @@ pub(crate) const TWINS: &[Twin] = &[
     // Where Walter's fit goes to 0, at a = 1.6, it is a difference.
     twin!("brdf/beckmann.wgsl" "v_smith_beckmann_correlated", [Cosine, Cosine, Cosine, Alpha], 32.0, 0.0, DOUBLE, |x| [beckmann::v_smith_beckmann_correlated(x[0], x[1], x[2], x[3])]),
     twin!("brdf/beckmann.wgsl" "v_smith_beckmann_separable", [Cosine, Cosine, Cosine, Alpha], 32.0, 0.0, DOUBLE, |x| [beckmann::v_smith_beckmann_separable(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/coupling.wgsl" "coupling_colored", [Color(0.0, 1.0), Color(0.0, 1.0), Pair(0.05, 0.5)], 16.0, 1.0, DOUBLE, |x| coupling::coupling_colored(v(x, 0), v(x, 3), v(x, 6))),
     twin!("brdf/coupling.wgsl" "coupling_compensated", [Range(0.0, 0.2), Range(0.0, 1.0), Pair(0.0, 0.5)], 8.0, 1.0, DOUBLE, |x| [coupling::coupling_compensated(x[0], x[1], v(x, 2))]),
     twin!("brdf/coupling.wgsl" "coupling_light", [Range(0.0, 0.2), Range(0.0, 1.0), Pair(0.0, 0.5), Roughness], 8.0, 1.0, DOUBLE, |x| [coupling::coupling_light(x[0], x[1], v(x, 2), x[4])]),
     twin!("brdf/coupling.wgsl" "coupling_single", [Range(0.0, 0.2), Range(0.0, 1.0), Pair(0.0, 0.5)], 4.0, 1.0, DOUBLE, |x| [coupling::coupling_single(x[0], x[1], v(x, 2))]),
@@ -189,6 +208,8 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("brdf/lobe_anisotropic.wgsl" "anisotropic_eval", [Frame, FrontOfLast, Reflectances(1.0), Unit, Range(0.1, 1.0), Range(0.1, 1.0)], 256.0, 0.1, DOUBLE, |x| lobe_anisotropic::anisotropic_eval(frame(x), v(x, 7), anisotropic_lobe(x, 10))),
     // A tangent nearly along the view leaves a short cross product.
     twin!("brdf/lobe_anisotropic.wgsl" "anisotropic_reflection", [Frame, Unit, Range(0.0, 1.0), Range(0.0, 1.0)], 65536.0, 1.0, DOUBLE, |x| lobe_anisotropic::anisotropic_reflection(frame(x), v(x, 7), x[10], x[11])),
+    twin!("brdf/lobe_anisotropic.wgsl" "anisotropic_strip", [Frame, Unit, Range(0.1, 1.0), Range(0.1, 1.0), Range(0.0, 4.0)], 65536.0, 1.0, DOUBLE, |x| strip(lobe_anisotropic::anisotropic_strip(frame(x), v(x, 7), x[10], x[11], x[12]))),
+    twin!("brdf/lobe_anisotropic.wgsl" "anisotropic_tangent", [Unit, TangentOfLast, Range(-3.2, 3.2)], 64.0, 1.0, FLOAT, |x| lobe_anisotropic::anisotropic_tangent(v(x, 0), v(x, 3), x[7])),
     twin!("brdf/lobe_coat.wgsl" "coat_base", [Range(0.0, 1.0), Color(0.01, 1.0), Range(0.0, 0.2), Alpha, Cosine, Pair(0.0, 0.5)], 64.0, 1.0, FLOAT, |x| coat_base(coat(x, 0), x[6], v(x, 7))),
     twin!("brdf/lobe_coat.wgsl" "coat_environment", [Range(0.0, 1.0), Color(0.01, 1.0), Range(0.0, 0.2), Alpha, Color(0.0, 1e4), Pair(0.0, 0.5)], 4.0, 0.0, DOUBLE, |x| coat_environment(coat(x, 0), v(x, 6), v(x, 9))),
     twin!("brdf/lobe_coat.wgsl" "coat_eval", [Frame, FrontOfLast, Range(0.0, 1.0), Color(0.01, 1.0), Range(0.0, 0.2), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| coat_eval(frame(x), v(x, 7), coat(x, 10))),
@@ -208,10 +229,16 @@ pub(crate) const TWINS: &[Twin] = &[
     // the test against the truth.
     twin!("brdf/lobe_specular.wgsl" "specular_eval", [Frame, FrontOfLast, Reflectances(1.0), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| specular_eval(frame(x), v(x, 7), specular(x, 10))),
     twin!("brdf/lobe_specular.wgsl" "specular_environment", [Reflectances(1.0), Alpha, Color(0.0, 1e4), Pair(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| specular_environment(specular(x, 0), v(x, 7), v(x, 10))),
-    // Half vectors of refraction are short where v and -l are near each other: their rounding is that much larger.
+    twin!("brdf/lobe_thin_film.wgsl" "thin_film_cosine", [Pair(0.0, 0.5)], 4096.0, 1.0, FLOAT, |x| [thin_film_cosine(v(x, 0))]),
+    twin!("brdf/lobe_thin_film.wgsl" "thin_film_fresnel", [Reflectances(0.9), Range(-0.5, 1.5), Range(0.0, 1000.0), Range(1.0, 3.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film_fresnel(v(x, 0), v(x, 3), film(x, 6), x[9])),
+    twin!("brdf/lobe_thin_film.wgsl" "thin_film_shift", [Reflectances(0.9), Range(-0.5, 1.5), Range(0.0, 1000.0), Range(1.0, 3.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film_shift(v(x, 0), v(x, 3), film(x, 6), x[9])),
+    twin!("brdf/lobe_thin_film.wgsl" "thin_film_through", [Color(-1.0, 1.0), Reflectances(0.9), Range(0.3, 1.0)], 256.0, 1.0, DOUBLE, |x| thin_film_through(v(x, 0), v(x, 3), v(x, 6), x[9])),
+    twin!("brdf/lobe_transmission.wgsl" "f0_of_sheet", [Range(0.0, 1.0), Range(0.0, 1.0)], 8.0, 0.0, DOUBLE, |x| [f0_of_sheet(x[0], x[1])]),
     twin!("brdf/lobe_transmission.wgsl" "transmission_direction", [Frame, Range(0.4, 2.5)], 4096.0, 1.0, DOUBLE, |x| transmission_direction(frame(x), x[7])),
     twin!("brdf/lobe_transmission.wgsl" "transmission_environment", [Color(0.0, 1.0), Range(0.4, 2.5), Alpha, Range(0.0, 0.2), Color(0.0, 1e4), Pair(0.0, 0.5)], 8.0, 1.0, DOUBLE, |x| transmission_environment(transmitted(x, 0), x[5], v(x, 6), v(x, 9))),
+    // Half vectors of refraction are short where v and -l are near each other: their rounding is that much larger.
     twin!("brdf/lobe_transmission.wgsl" "transmission_eval", [Frame, BackOfLast, Color(0.0, 1.0), Range(1.3, 2.0), Range(0.2, 1.0)], 1024.0, 1.0, DOUBLE, |x| transmission_eval(frame(x), v(x, 7), transmitted(x, 10))),
+    twin!("brdf/lobe_transmission.wgsl" "transmission_lookup", [Frame, Range(0.4, 2.5), Range(0.01, 1.0)], 65536.0, 1.0, DOUBLE, |x| looked_up(transmission_lookup(frame(x), x[7], x[8]))),
     twin!("brdf/lobe_transmission.wgsl" "transmission_thin_eval", [Frame, BackOfLast, Color(0.0, 1.0), Range(1.1, 2.5), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| transmission_thin_eval(frame(x), v(x, 7), transmitted(x, 10))),
     twin!("brdf/metallic_roughness.wgsl" "diffuse_color", [Color(0.0, 1.0), Range(0.0, 1.0)], 2.0, 0.0, DOUBLE, |x| metallic_roughness::diffuse_color(v(x, 0), x[3])),
     twin!("brdf/metallic_roughness.wgsl" "f0_from_metallic", [Color(0.0, 1.0), Range(0.0, 1.0), Range(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| metallic_roughness::f0_from_metallic(v(x, 0), x[3], x[4])),
@@ -224,6 +251,7 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("brdf/sheen.wgsl" "d_charlie", [HalfAngle, Range(0.02, 1.0)], 512.0, 0.01, FLOAT, |x| [sheen::d_charlie(x[0], x[1], x[2])]),
     twin!("brdf/sheen.wgsl" "v_neubelt", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [sheen::v_neubelt(x[0], x[1], x[2], x[3])]),
     twin!("brdf/thin_film.wgsl" "f_thin_film", [Range(1.0, 3.0), Range(0.0, 1000.0), Color(0.2, 4.0), Color(0.0, 6.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film::f_thin_film(x[0], x[1], v(x, 2), v(x, 5), x[8])),
+    twin!("brdf/thin_film.wgsl" "f_thin_film_dielectric", [Range(1.0, 3.0), Range(0.0, 1000.0), Color(1.0, 4.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film::f_thin_film_dielectric(x[0], x[1], v(x, 2), x[5])),
     twin!("brdf/visibility.wgsl" "v_cook_torrance", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [visibility::v_cook_torrance(x[0], x[1], x[2], x[3])]),
     twin!("brdf/visibility.wgsl" "v_hammon", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [visibility::v_hammon(x[0], x[1], x[2], x[3])]),
     twin!("brdf/visibility.wgsl" "v_kelemen", [Cosine, Cosine, Cosine, Alpha], 6.0, 0.0, DOUBLE, |x| [visibility::v_kelemen(x[0], x[1], x[2], x[3])]),

@@ -1,6 +1,9 @@
 //! The thin film against integration over the spectrum with Airy's sum in closed form, and at its edges.
 
+use halfvector_brdf::coupling::{coupling_colored, coupling_compensated};
 use halfvector_brdf::fresnel::f_conductor;
+use halfvector_brdf::fresnel::f_schlick;
+use halfvector_brdf::lobe_thin_film::{ThinFilm, thin_film_cosine, thin_film_fresnel, thin_film_shift};
 use halfvector_brdf::math::PI;
 use halfvector_brdf::thin_film::f_thin_film;
 
@@ -107,6 +110,36 @@ fn no_film_is_the_bare_base() {
             for (ior, thickness) in [(1.5, 0.0), (1.0, 500.0), (2.0, -1.0)] {
                 let film = f_thin_film::<f64>(ior, thickness, [n; 3], [k; 3], cosine);
                 assert!(film.iter().all(|f| (f - bare).abs() < 1e-8), "{n} {k} {cosine}: {film:?}, {bare}");
+            }
+        }
+    }
+}
+
+/// What a shader leaves out when the film's weight is known to be 0 is what it computes when the weight is only 0 now.
+#[test]
+fn a_film_of_weight_0_changes_nothing() {
+    let (f0, f90, dfg): ([f64; 3], _, _) = ([0.04, 0.5, 0.9], [1.0; 3], [0.7, 0.1]);
+    let film = ThinFilm { weight: 0.0, thickness: 400.0, ior: 1.4 };
+    for cosine in [0.0, 0.3, 1.0] {
+        assert_eq!(thin_film_shift(f0, f90, film, cosine), [0.0; 3]);
+        assert_eq!(thin_film_fresnel(f0, f90, film, cosine), f_schlick(f0, f90, cosine));
+    }
+    assert_eq!(coupling_colored(f0, f90, dfg), f0.map(|f0| coupling_compensated(f0, 1.0, dfg)));
+}
+
+/// A film's reflectance at the mean cosine, through the split sum of both shifted reflectances.
+#[test]
+fn the_split_sum_of_a_shifted_base_is_the_film_s() {
+    let (f0, f90): ([f64; 3], _) = ([0.04, 0.5, 0.9], [1.0; 3]);
+    for dfg in [[0.7, 0.1], [0.2, 0.5], [0.96, 0.001]] {
+        for weight in [0.3, 1.0] {
+            let film = ThinFilm { weight, thickness: 400.0, ior: 1.4 };
+            let cosine = thin_film_cosine(dfg);
+            let (shift, whole) = (thin_film_shift(f0, f90, film, cosine), thin_film_fresnel(f0, f90, film, cosine));
+            for i in 0..3 {
+                let split = (f0[i] + shift[i]) * dfg[0] + (f90[i] + shift[i]) * dfg[1];
+                let film = whole[i] * (dfg[0] + dfg[1]);
+                assert!((split - film).abs() < 1e-9, "{dfg:?} {weight}: {split} and {film}");
             }
         }
     }

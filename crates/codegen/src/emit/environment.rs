@@ -25,8 +25,10 @@ impl Shading<'_, '_, '_> {
             return Ok(());
         }
         let last_level = self.parts.needs.methods.is("irradiance", "last_level");
-        if plan.specular || (plan.reads_irradiance() && last_level) {
-            let mut mirror = "reflect(-frame.view_dir, frame.normal)".to_owned();
+        let strips = self.strips();
+        let by_mirror = plan.specular && (!strips || plan.horizon);
+        if by_mirror || (plan.reads_irradiance() && last_level) {
+            let mut mirror = self.mirror()?;
             if plan.horizon && plan.environment == Some(true) {
                 self.line(&format!("let mirror_dir = {mirror};"));
                 mirror = "mirror_dir".into();
@@ -40,6 +42,40 @@ impl Shading<'_, '_, '_> {
         }
         self.base()?;
         self.layers_above()
+    }
+
+    /// Whether the base's reflection is a row of lookups.
+    fn strips(&self) -> bool {
+        self.parts.plan.anisotropy && self.parts.needs.methods.is("anisotropy", "strips")
+    }
+
+    /// Light that the base reflects, along the tangent of a brushed surface.
+    fn reflection(&mut self, roughness: &str) -> Result<(), CodegenError> {
+        if !self.strips() {
+            let reflection = self.prefiltered("reflection_dir", roughness)?;
+            self.line(&format!("let reflection = {reflection};"));
+            return Ok(());
+        }
+        let (strip, count) = (self.writer.library("anisotropic_strip")?, self.writer.library("ANISOTROPIC_STRIPS")?);
+        let direction = self.turned("strip.dir")?;
+        let sample = self.prefiltered(&direction, "strip.perceptual_roughness")?;
+        self.line("var strips = vec4f(0.0);");
+        self.line(&format!("for (var i = 0u; i < {count}; i++) {{"));
+        self.line(&format!("    let strip = {strip}(frame, tangent, alphas.x, alphas.y, f32(i));"));
+        self.line(&format!("    strips += strip.weight * vec4f({sample}, 1.0);"));
+        self.line("}");
+        self.line("let reflection = strips.rgb / strips.a;");
+        Ok(())
+    }
+
+    /// The direction of the base's reflection in the world.
+    fn mirror(&mut self) -> Result<String, CodegenError> {
+        if !self.parts.plan.anisotropy || self.strips() {
+            return Ok("reflect(-frame.view_dir, frame.normal)".into());
+        }
+        let bent = self.writer.library("anisotropic_reflection")?;
+        let (strength, roughness) = (self.root("anisotropy", "0.0"), self.root("perceptual_roughness", "0.5"));
+        Ok(format!("{bent}(frame, tangent, {strength}, {roughness})"))
     }
 
     /// Diffuse light over pi about the normal.
@@ -74,19 +110,29 @@ impl Shading<'_, '_, '_> {
             self.add(&format!("{lobe}(multiscatter, irradiance){occlusion}{base}"));
         }
         if plan.specular {
-            let reflection = self.prefiltered("reflection_dir", &roughness)?;
-            self.line(&format!("let reflection = {reflection};"));
+            let width = self.specular_roughness.clone();
+            self.reflection(&width)?;
             let compensated = if plan.compensation { " * compensation" } else { "" };
             let dir = if plan.environment == Some(true) { "mirror_dir" } else { "reflection_dir" };
-            let mirror = Mirror { name: "", frame: "frame", roughness: &roughness, dir, horizon: plan.horizon };
+            let mirror = Mirror { name: "", frame: "frame", roughness: &width, dir, horizon: plan.horizon };
             let hidden = self.hidden(&mirror)?;
-            let lobe = self.writer.library("specular_environment")?;
+            let lobe = self.writer.library(if plan.anisotropy {
+                "anisotropic_environment"
+            } else {
+                "specular_environment"
+            })?;
             self.add(&format!("{lobe}(specular, reflection, dfg){compensated}{hidden}{base}"));
         }
         if plan.transmission {
-            let bend = self.writer.library("transmission_direction")?;
-            let direction = self.turned(&format!("{bend}(frame, transmission.eta)"))?;
-            let transmitted = self.prefiltered(&direction, &roughness)?;
+            let transmitted = if plan.thin_walled {
+                let direction = self.turned("-frame.view_dir")?;
+                self.prefiltered(&direction, &roughness)?
+            } else {
+                let lookup = self.writer.library("transmission_lookup")?;
+                self.line(&format!("let behind = {lookup}(frame, transmission.eta, transmission.alpha);"));
+                let direction = self.turned("behind.dir")?;
+                self.prefiltered(&direction, "behind.perceptual_roughness")?
+            };
             self.line(&format!("let transmitted = {transmitted};"));
             let (lobe, f0) = (self.writer.library("transmission_environment")?, self.root("dielectric_f0", "0.0"));
             self.add(&format!("{lobe}(transmission, {f0}, transmitted, dfg){base}"));

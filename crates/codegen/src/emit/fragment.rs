@@ -40,6 +40,7 @@ pub(crate) fn fragment(parts: &FragmentParts<'_, '_>) -> Result<(Text, Uses), Co
         over_coat: "",
         over_base: "",
         coat_frame: "frame",
+        specular_roughness: String::new(),
     };
     shading.discard();
     if plan.is_lit() {
@@ -88,6 +89,8 @@ pub(crate) struct Shading<'s, 'p, 'a> {
     pub(crate) over_base: &'static str,
     /// The frame of the coat.
     pub(crate) coat_frame: &'static str,
+    /// The perceptual roughness at which the specular lobe's albedo is looked up.
+    pub(crate) specular_roughness: String,
 }
 
 impl Shading<'_, '_, '_> {
@@ -140,23 +143,15 @@ impl Shading<'_, '_, '_> {
             self.line(&format!("let frame = {frame}({normal}, {normal}); // no lobe looks at the viewer"));
         }
         let roughness = self.root("perceptual_roughness", "0.5");
-        if plan.specular {
-            let (specular, alpha) = (self.writer.library("Specular")?, self.alpha(&roughness)?);
-            let (f0, f90) = (self.root("f0", "vec3f(0.04)"), self.root("f90", "vec3f(1.0)"));
-            self.line(&format!("let specular = {specular}({f0}, {f90}, {alpha});"));
-        }
-        if plan.reads_dfg() {
-            let lookup = self.dfg("frame.n_dot_v", &roughness)?;
-            self.line(&format!("let dfg = {lookup};"));
-        }
+        self.specular()?;
         if plan.compensation {
             let method = self.parts.needs.methods.get("compensation");
             let factor = self.writer.library(method.function.unwrap_or("energy_compensation"))?;
             self.line(&format!("let compensation = {factor}(specular.f0, specular.f90, dfg);"));
         }
         if plan.multiscatter {
-            let lobe = self.writer.library("multiscatter_from_dfg")?;
-            self.line(&format!("let multiscatter = {lobe}(specular.f0, specular.f90, dfg, {roughness});"));
+            let (lobe, width) = (self.writer.library("multiscatter_from_dfg")?, self.specular_roughness.clone());
+            self.line(&format!("let multiscatter = {lobe}(specular.f0, specular.f90, dfg, {width});"));
         }
         if plan.diffuse {
             let (diffuse, mut color) = (self.writer.library("Diffuse")?, self.root("diffuse_color", "vec3f(0.5)"));
@@ -165,20 +160,116 @@ impl Shading<'_, '_, '_> {
             }
             if plan.coupling != Coupling::None {
                 let compensated = plan.compensation || plan.multiscatter;
-                let share =
-                    self.writer.library(if compensated { "coupling_compensated" } else { "coupling_single" })?;
-                let (f0, f90) = self.dielectric();
-                color = format!("{color} * {share}({f0}, {f90}, dfg)");
+                let share = match (plan.thin_film, compensated) {
+                    (true, _) => self.coupling_under_film()?,
+                    (false, true) => self.coupling("coupling_compensated")?,
+                    (false, false) => self.coupling("coupling_single")?,
+                };
+                color = format!("{color} * {share}");
             }
             self.line(&format!("let diffuse = {diffuse}({color}, {roughness});"));
         }
         if plan.transmission {
             let lobe = self.writer.library("Transmission")?;
             let (color, weight) = (self.root("diffuse_color", "vec3f(0.5)"), self.root("transmission_weight", "0.0"));
+            let film = if plan.thin_film { " * film_through" } else { "" };
             let (ior, alpha) = (self.root("ior", "1.5"), self.alpha(&roughness)?);
-            self.line(&format!("let transmission = {lobe}({color} * {weight}, {ior}, {alpha});"));
+            self.line(&format!("let transmission = {lobe}({color} * {weight}{film}, {ior}, {alpha});"));
         }
         self.layers()
+    }
+
+    /// The specular lobe, what it is looked up by, and the film on it.
+    fn specular(&mut self) -> Result<(), CodegenError> {
+        let plan = self.parts.plan;
+        self.specular_roughness = self.root("perceptual_roughness", "0.5");
+        if plan.specular {
+            let (f0, f90) = (self.root("f0", "vec3f(0.04)"), self.root("f90", "vec3f(1.0)"));
+            let widths = self.widths()?;
+            if plan.anisotropy && (plan.reads_dfg() || plan.environment.is_some()) {
+                self.line("let specular_roughness = sqrt(sqrt(alphas.x * alphas.y));");
+                self.specular_roughness = "specular_roughness".into();
+            }
+            let lobe = self.writer.library(if plan.anisotropy { "Anisotropic" } else { "Specular" })?;
+            if plan.thin_film {
+                self.view_dfg()?;
+                self.film(&f0, &f90)?;
+                let shift = if plan.reads_dfg() { " + film_shift" } else { "" };
+                self.line(&format!("let specular = {lobe}({f0}{shift}, {f90}{shift}, {widths});"));
+                return Ok(());
+            }
+            self.line(&format!("let specular = {lobe}({f0}, {f90}, {widths});"));
+        }
+        self.view_dfg()
+    }
+
+    /// The split sum's pair towards the viewer.
+    fn view_dfg(&mut self) -> Result<(), CodegenError> {
+        if self.parts.plan.reads_dfg() {
+            let roughness = self.specular_roughness.clone();
+            let lookup = self.dfg("frame.n_dot_v", &roughness)?;
+            self.line(&format!("let dfg = {lookup};"));
+        }
+        Ok(())
+    }
+
+    /// The last arguments of the specular lobe: how wide it is, and along what.
+    fn widths(&mut self) -> Result<String, CodegenError> {
+        let roughness = self.root("perceptual_roughness", "0.5");
+        if !self.parts.plan.anisotropy {
+            return self.alpha(&roughness);
+        }
+        let (turned, tangent) = (self.writer.library("anisotropic_tangent")?, self.root("tangent", "vec4f(0.0)"));
+        let (strength, rotation) = (self.root("anisotropy", "0.0"), self.root("anisotropy_rotation", "0.0"));
+        self.line(&format!("let tangent = {turned}(frame.normal, {tangent}, {rotation});"));
+        let (alphas, floored) = (self.writer.library("anisotropic_alphas_gltf")?, self.floored(&roughness)?);
+        self.line(&format!("let alphas = {alphas}({floored}, {strength});"));
+        Ok("tangent, alphas.x, alphas.y".into())
+    }
+
+    /// The film on the base: what it adds to the reflection of an environment, which stands for all that is not lit from one
+    /// direction. Of what it adds, the dielectric part's share is taken as 1 - metallic of it: exact where there is no metal,
+    /// and where all is metal nothing lies below. A film over that part alone would cost 60 instructions more.
+    fn film(&mut self, f0: &str, f90: &str) -> Result<(), CodegenError> {
+        let plan = self.parts.plan;
+        let (lobe, weight) = (self.writer.library("ThinFilm")?, self.root("thin_film_weight", "0.0"));
+        let (thickness, ior) = (self.root("thin_film_thickness", "0.5"), self.root("thin_film_ior", "1.4"));
+        self.line(&format!("let film = {lobe}({weight}, 1000.0 * {thickness}, {ior});"));
+        if !plan.reads_dfg() {
+            return Ok(());
+        }
+        let (cosine, shift) = (self.writer.library("thin_film_cosine")?, self.writer.library("thin_film_shift")?);
+        self.line(&format!("let film_cosine = {cosine}(dfg);"));
+        self.line(&format!("let film_shift = {shift}({f0}, {f90}, film, film_cosine);"));
+        let (f0, f90) = self.dielectric_colors();
+        let below = self.dielectric_shift();
+        if plan.parts_film() {
+            let metallic = self.root("metallic", "0.0");
+            self.line(&format!("let {below} = film_shift * (1.0 - {metallic});"));
+        }
+        if plan.transmission {
+            let through = self.writer.library("thin_film_through")?;
+            self.line(&format!("let film_through = {through}({below}, {f0}, {f90}, film_cosine);"));
+        }
+        Ok(())
+    }
+
+    /// What the film adds to the dielectric part's reflection: what it adds at all, where there is no metal.
+    fn dielectric_shift(&self) -> &'static str {
+        if self.parts.plan.metal_in_part { "dielectric_shift" } else { "film_shift" }
+    }
+
+    /// What the interface under a film leaves to the diffuse base.
+    fn coupling_under_film(&mut self) -> Result<String, CodegenError> {
+        let (share, shift) = (self.writer.library("coupling_colored")?, self.dielectric_shift());
+        let (f0, f90) = self.dielectric_colors();
+        Ok(format!("{share}({f0} + {shift}, {f90} + {shift}, dfg)"))
+    }
+
+    /// What the interface over the diffuse base leaves to it.
+    fn coupling(&mut self, share: &'static str) -> Result<String, CodegenError> {
+        let (f0, f90) = self.dielectric();
+        Ok(format!("{}({f0}, {f90}, dfg)", self.writer.library(share)?))
     }
 
     /// The layers over the base: their parameters, and what they leave to what lies below.
@@ -222,10 +313,14 @@ impl Shading<'_, '_, '_> {
     /// The width of a lobe: not below what a light without extent can be drawn with.
     fn alpha(&mut self, roughness: &str) -> Result<String, CodegenError> {
         let alpha = self.writer.library("alpha_from_perceptual_roughness")?;
+        Ok(format!("{alpha}({})", self.floored(roughness)?))
+    }
+
+    fn floored(&mut self, roughness: &str) -> Result<String, CodegenError> {
         if self.parts.plan.lights.is_empty() {
-            return Ok(format!("{alpha}({roughness})"));
+            return Ok(roughness.to_owned());
         }
-        Ok(format!("{alpha}(max({roughness}, {}))", self.writer.library("PUNCTUAL_ROUGHNESS_FLOOR")?))
+        Ok(format!("max({roughness}, {})", self.writer.library("PUNCTUAL_ROUGHNESS_FLOOR")?))
     }
 
     /// The split sum's pair of a cosine at a roughness.
@@ -240,6 +335,12 @@ impl Shading<'_, '_, '_> {
     /// f0 and f90 of the interface over the diffuse base.
     fn dielectric(&self) -> (String, String) {
         (self.root("dielectric_f0", "0.04"), self.root("dielectric_f90", "1.0"))
+    }
+
+    /// The same in each channel.
+    fn dielectric_colors(&self) -> (String, String) {
+        let (f0, f90) = self.dielectric();
+        (format!("vec3f({f0})"), format!("vec3f({f90})"))
     }
 
     fn lights(&mut self) -> Result<(), CodegenError> {
@@ -261,7 +362,7 @@ impl Shading<'_, '_, '_> {
             if count == 1 {
                 let light = format!("{member}_light");
                 self.line(&format!("let {light} = {sample}(lights.{member}, {position});"));
-                if let Some(line) = self.light_dfg(&light)? {
+                for line in self.light_lines(&light)? {
                     self.line(&line);
                 }
                 for term in self.light_terms(&light)? {
@@ -273,7 +374,7 @@ impl Shading<'_, '_, '_> {
                 }
                 self.line(&format!("for (var i = 0u; i < {count}u; i++) {{"));
                 self.line(&format!("    let light = {sample}(lights.{member}[i], {position});"));
-                if let Some(line) = self.light_dfg("light")? {
+                for line in self.light_lines("light")? {
                     self.line(&format!("    {line}"));
                 }
                 for term in self.light_terms("light")? {
@@ -285,14 +386,33 @@ impl Shading<'_, '_, '_> {
         Ok(())
     }
 
-    /// The split sum's pair towards a light, where a lobe asks for it.
-    fn light_dfg(&mut self, light: &str) -> Result<Option<String>, CodegenError> {
-        if !self.parts.plan.reads_light_dfg() {
-            return Ok(None);
+    /// What several terms of a light share: the split sum's pair towards it, and what the film reflects of it.
+    fn light_lines(&mut self, light: &str) -> Result<Vec<String>, CodegenError> {
+        let plan = self.parts.plan;
+        let mut lines = Vec::new();
+        if plan.reads_light_dfg() {
+            let roughness = self.specular_roughness.clone();
+            let lookup = self.dfg(&format!("dot(frame.normal, {light}.dir)"), &roughness)?;
+            lines.push(format!("let {light}_dfg = {lookup};"));
         }
-        let roughness = self.root("perceptual_roughness", "0.5");
-        let lookup = self.dfg(&format!("dot(frame.normal, {light}.dir)"), &roughness)?;
-        Ok(Some(format!("let {light}_dfg = {lookup};")))
+        if plan.thin_film {
+            let (fresnel, half) = (self.writer.library("thin_film_fresnel")?, self.writer.library("half_from_light")?);
+            let (f0, f90) = (self.root("f0", "vec3f(0.04)"), self.root("f90", "vec3f(1.0)"));
+            let cosine = format!("{half}(frame, {light}.dir).l_dot_h");
+            lines.push(format!("let {light}_film = {fresnel}({f0}, {f90}, film, {cosine});"));
+        }
+        Ok(lines)
+    }
+
+    /// The specular lobe's parameters for one light: under a film the reflectances are that light's own.
+    fn specular_of(&mut self, light: &str) -> Result<String, CodegenError> {
+        let plan = self.parts.plan;
+        if !plan.thin_film {
+            return Ok("specular".into());
+        }
+        let lobe = self.writer.library(if plan.anisotropy { "Anisotropic" } else { "Specular" })?;
+        let widths = if plan.anisotropy { "tangent, alphas.x, alphas.y" } else { "specular.alpha" };
+        Ok(format!("{lobe}({light}_film, {light}_film, {widths})"))
     }
 
     /// What one light adds by each lobe.
@@ -305,22 +425,24 @@ impl Shading<'_, '_, '_> {
             let mut share = String::new();
             if plan.coupling == Coupling::Reciprocal {
                 let coupling = self.writer.library("coupling_light")?;
-                let ((f0, f90), roughness) = (self.dielectric(), self.root("perceptual_roughness", "0.5"));
+                let ((f0, f90), roughness) = (self.dielectric(), &self.specular_roughness);
                 share = format!(" * {coupling}({f0}, {f90}, {light}_dfg, {roughness})");
             }
             terms.push(format!("{lobe}(frame, {light}.dir, diffuse){share}{base} * {light}.illuminance"));
         }
         if plan.specular {
-            let lobe = self.writer.library("specular_eval")?;
+            let lobe = self.writer.library(if plan.anisotropy { "anisotropic_eval" } else { "specular_eval" })?;
+            let specular = self.specular_of(light)?;
             let compensated = if plan.compensation { " * compensation" } else { "" };
-            terms.push(format!("{lobe}(frame, {light}.dir, specular){compensated}{base} * {light}.illuminance"));
+            terms.push(format!("{lobe}(frame, {light}.dir, {specular}){compensated}{base} * {light}.illuminance"));
         }
         if plan.multiscatter {
             let lobe = self.writer.library("multiscatter_eval")?;
             terms.push(format!("{lobe}(frame, {light}.dir, multiscatter, {light}_dfg){base} * {light}.illuminance"));
         }
         if plan.transmission {
-            let lobe = self.writer.library("transmission_eval")?;
+            let eval = if plan.thin_walled { "transmission_thin_eval" } else { "transmission_eval" };
+            let lobe = self.writer.library(eval)?;
             terms.push(format!("{lobe}(frame, {light}.dir, transmission){base} * {light}.illuminance"));
         }
         if plan.coat {

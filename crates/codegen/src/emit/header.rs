@@ -67,7 +67,8 @@ fn serves(plan: &Plan, needs: &Needs) -> String {
 fn methods(plan: &Plan, needs: &Needs) -> String {
     let environment = plan.environment.is_some();
     let used = |term: &str| match term {
-        "d" | "v" | "fresnel" => (plan.specular || plan.coat) && !plan.lights.is_empty(),
+        "d" | "v" => ((plan.specular && !plan.anisotropy) || plan.coat) && !plan.lights.is_empty(),
+        "fresnel" => (plan.specular || plan.coat) && !plan.lights.is_empty(),
         "diffuse" => plan.diffuse && !plan.lights.is_empty(),
         "compensation" => plan.compensation || plan.multiscatter,
         "coupling" => plan.diffuse && plan.specular,
@@ -75,7 +76,8 @@ fn methods(plan: &Plan, needs: &Needs) -> String {
         "level_map" | "prefilter" => (plan.specular || plan.coat || plan.transmission) && environment,
         "specular_occlusion" => (plan.specular || plan.coat) && plan.occlusion,
         "horizon" => plan.horizon || plan.coat_horizon,
-        "irradiance" => plan.reads_irradiance(),
+        "anisotropy" => plan.anisotropy && environment,
+        "irradiance" => plan.reads_irradiance() || (plan.sheen && environment),
         "encode" => environment && needs.methods.is("encode", "report"),
         "height_normals" => plan.height,
         _ => false,

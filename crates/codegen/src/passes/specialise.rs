@@ -41,6 +41,14 @@ pub(crate) struct Plan {
     pub(crate) sheen: bool,
     /// Light that passes through the dielectric base.
     pub(crate) transmission: bool,
+    /// Whether the body that it passes is a sheet.
+    pub(crate) thin_walled: bool,
+    /// Whether the specular lobe is stretched along a tangent.
+    pub(crate) anisotropy: bool,
+    /// Whether a thin film lies on the base.
+    pub(crate) thin_film: bool,
+    /// Whether the base is a mixture of a metal and a dielectric.
+    pub(crate) metal_in_part: bool,
     pub(crate) emission: bool,
     /// Occlusion of the environment.
     pub(crate) occlusion: bool,
@@ -80,6 +88,12 @@ impl Plan {
     /// Whether shading reads the split sum's pair towards each light.
     pub(crate) fn reads_light_dfg(&self) -> bool {
         self.multiscatter || self.coupling == Coupling::Reciprocal
+    }
+
+    /// Whether a film lies over a mixture of a metal and a dielectric that lets light through to what lies below.
+    pub(crate) fn parts_film(&self) -> bool {
+        let below = self.transmission || self.coupling != Coupling::None;
+        self.thin_film && self.metal_in_part && below
     }
 
     pub(crate) fn is_lit(&self) -> bool {
@@ -152,7 +166,7 @@ impl Known<'_, '_> {
 }
 
 /// The sockets that shading reads, of a surface that has all of them.
-pub(crate) const SOCKETS: [&str; 17] = [
+pub(crate) const SOCKETS: [&str; 22] = [
     "base_color",
     "metallic",
     "perceptual_roughness",
@@ -170,6 +184,11 @@ pub(crate) const SOCKETS: [&str; 17] = [
     "sheen_color",
     "sheen_roughness",
     "transmission_weight",
+    "anisotropy",
+    "anisotropy_rotation",
+    "thin_film_weight",
+    "thin_film_thickness",
+    "thin_film_ior",
 ];
 
 /// Those of them that are normals: a displaced surface changes what they are by default.
@@ -193,13 +212,19 @@ pub(crate) fn specialise(
         stage.roots.insert("diffuse_color", color);
     }
     if plan.specular {
-        let Reflectances { f0, f90, dielectric } = reflectances(stage, metal, weightless, full);
+        let sheet = plan.thin_walled;
+        let Reflectances { f0, f90, dielectric } = reflectances(stage, metal, weightless, full, sheet);
         stage.roots.insert("f0", f0);
         stage.roots.insert("f90", f90);
-        if let (Some((f0, f90)), true) = (dielectric, plan.coupling != Coupling::None || plan.transmission) {
+        let by_dielectric = plan.coupling != Coupling::None || plan.transmission;
+        if let (Some((f0, f90)), true) = (dielectric, by_dielectric) {
             stage.roots.insert("dielectric_f0", f0);
             stage.roots.insert("dielectric_f90", f90);
         }
+    }
+    if plan.anisotropy {
+        let tangent = tangent(stage, needs);
+        stage.roots.insert("tangent", tangent);
     }
     if plan.coat {
         let ior = input(stage, "coat_ior", Type::F32, 1.5);
@@ -236,7 +261,8 @@ fn metal(program: &Program<'_>, fold: Fold) -> Metal {
 fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold, constants: Constants) -> Plan {
     let known = Known { program, fold };
     let metal = metal(program, fold);
-    let mut plan = Plan { double_sided: document.surface.double_sided, ..Plan::default() };
+    let double_sided = document.surface.double_sided;
+    let mut plan = Plan { double_sided, metal_in_part: metal == Metal::Mixed, ..Plan::default() };
 
     let counts = [needs.directional_lights, needs.point_lights, needs.spot_lights];
     plan.lights = LightKind::ALL.into_iter().zip(counts).filter(|(_, count)| *count > 0).collect();
@@ -249,7 +275,9 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
         plan.drop_it("environment light", "the scene has no environment: 2 cubes and their lookups saved");
     }
 
+    let film = !absent(&known, "thin_film_weight");
     plan.transmission = lit && metal != Metal::Whole && !absent(&known, "transmission_weight");
+    plan.thin_walled = plan.transmission && document.surface.thin_walled;
     plan.diffuse = lit && metal != Metal::Whole && !(plan.transmission && known.surface("transmission_weight", 1.0));
     if lit && !plan.diffuse {
         plan.drop_it(
@@ -268,7 +296,7 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     if lit && metal == Metal::None && plan.specular {
         plan.drop_it("metal", "metallic is 0: f0 comes from the index of refraction alone");
     }
-    if plan.specular && compensates(&mut plan, needs, constants) {
+    if plan.specular && compensates(&mut plan, needs, constants.dielectric_f0.filter(|_| !film)) {
         plan.multiscatter = needs.methods.is("compensation", "kulla_conty");
         plan.compensation = !plan.multiscatter;
     }
@@ -284,6 +312,8 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     if !plan.emission {
         plan.drop_it("emission", "it is 0");
     }
+    plan.anisotropy = plan.specular && !absent(&known, "anisotropy");
+    plan.thin_film = plan.specular && !absent(&known, "thin_film_weight");
     // Layers dim what the surface sends out itself, also where nothing shines on them.
     plan.coat = (lit || plan.emission) && !absent(&known, "coat_weight");
     plan.sheen = (lit || plan.emission) && !absent(&known, "sheen_color");
@@ -305,12 +335,13 @@ fn absent(known: &Known<'_, '_>, socket: &str) -> bool {
     known.program.fragment.root(socket).is_none() || known.surface(socket, 0.0)
 }
 
-fn compensates(plan: &mut Plan, needs: &Needs, constants: Constants) -> bool {
+/// `fixed_f0` is the dielectric's when nothing can change it: no film either.
+fn compensates(plan: &mut Plan, needs: &Needs, fixed_f0: Option<f32>) -> bool {
     if needs.methods.is("compensation", "none") {
         plan.drop_it("energy compensation", "the method is `none`: single scattering only");
         return false;
     }
-    match constants.dielectric_f0 {
+    match fixed_f0 {
         Some(f0) if f0 <= COMPENSATION_MIN_F0 => {
             plan.drop_it(
                 "energy compensation",
@@ -386,7 +417,7 @@ struct Reflectances {
 
 /// f0 and f90 of the specular lobe. Khronos 2021, KHR_materials_ior and KHR_materials_specular: the dielectric's are
 /// scaled by the weight `specular`, a metal's f0 is its base colour and its f90 is 1.
-fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full: bool) -> Reflectances {
+fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full: bool, sheet: bool) -> Reflectances {
     let arena_one = |stage: &mut Stage<'a>, x: f32| stage.arena.literal(Type::Vec3, &[x]);
     if metal == Metal::Whole {
         let (f0, f90) = (input(stage, "base_color", Type::Vec3, 0.5), arena_one(stage, 1.0));
@@ -399,7 +430,12 @@ fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full:
     } else {
         input(stage, "specular", Type::F32, 1.0)
     };
-    let dielectric_f0 = dielectric_f0(stage, weight, full, weightless);
+    let mut dielectric_f0 = dielectric_f0(stage, weight, full, weightless);
+    if sheet && !weightless {
+        let through = input(stage, "transmission_weight", Type::F32, 0.0);
+        let call = Expr::Call { function: "f0_of_sheet", generic: None, arguments: vec![dielectric_f0, through] };
+        dielectric_f0 = stage.arena.own(call, Type::F32, "sheet_f0");
+    }
     if metal == Metal::None {
         let (f0, f90) = (stage.arena.convert(dielectric_f0, Type::Vec3), stage.arena.convert(weight, Type::Vec3));
         return Reflectances { f0, f90, dielectric: Some((dielectric_f0, weight)) };
@@ -418,6 +454,25 @@ fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full:
         stage.arena.convert(mixed, Type::Vec3)
     };
     Reflectances { f0, f90, dielectric: Some((dielectric_f0, weight)) }
+}
+
+/// The tangent that a brushed surface follows, with its handedness: the mesh's, or the pixel's where normal maps take
+/// that one too.
+fn tangent(stage: &mut Stage<'_>, needs: &Needs) -> Id {
+    if !needs.methods.is("normal", "tbn_derivative") {
+        return stage.arena.own(Expr::Context("world_tangent"), Type::Vec4, "");
+    }
+    let mut derivatives = |context, ty| {
+        let of = stage.arena.own(Expr::Context(context), ty, "");
+        let mut along = |name| stage.arena.own(Expr::Builtin { name, arguments: vec![of] }, ty, "");
+        [along("dpdx"), along("dpdy")]
+    };
+    let [position_ddx, position_ddy] = derivatives("world_position", Type::Vec3);
+    let [uv_ddx, uv_ddy] = derivatives("uv0", Type::Vec2);
+    let normal = stage.arena.own(Expr::Context("world_normal"), Type::Vec3, "");
+    let arguments = vec![position_ddx, position_ddy, normal, uv_ddx, uv_ddy];
+    let call = Expr::Call { function: "tangent_from_derivatives", generic: None, arguments };
+    stage.arena.own(call, Type::Vec4, "pixel_tangent")
 }
 
 /// The dielectric's f0: of the index of refraction, times the weight.
@@ -452,6 +507,9 @@ fn keep_wanted(stage: &mut Stage<'_>, plan: &Plan) {
         "coat_weight" | "coat_color" | "coat_roughness" | "coat_normal" => plan.coat,
         "sheen_color" | "sheen_roughness" => plan.sheen,
         "transmission_weight" | "ior" => plan.transmission,
+        "anisotropy" | "anisotropy_rotation" | "tangent" => plan.anisotropy,
+        "thin_film_weight" | "thin_film_thickness" | "thin_film_ior" => plan.thin_film,
+        "metallic" => plan.parts_film(),
         "occlusion" => plan.occlusion,
         "emission" => plan.emission,
         "opacity" => plan.alpha_mode != AlphaMode::Opaque,

@@ -101,7 +101,7 @@ fn live_numbers_change_no_text() {
                 Value::Image(_) => continue,
             };
             // A neutral weight is the one number that specialises, see `lobe_weights_specialise_live`.
-            const WEIGHTS: [&str; 8] = [
+            const WEIGHTS: [&str; 10] = [
                 "specular",
                 "occlusion",
                 "emission",
@@ -110,6 +110,8 @@ fn live_numbers_change_no_text() {
                 "coat_weight",
                 "sheen_color",
                 "transmission_weight",
+                "anisotropy",
+                "thin_film_weight",
             ];
             if id == "surface" && WEIGHTS.contains(&input.name.as_str()) {
                 continue;

@@ -2,22 +2,23 @@
 
 use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput, ToneMap};
 
-use super::{environment, exported, made, maps, material, nothing, sun};
+use super::{environment, exported, made, maps, material, methods, nothing, sun};
 use crate::Fold;
 use crate::passes::specialise::{COMPENSATION_BOUND_PERCENT, COMPENSATION_MIN_F0};
 
 const ALL_LOBES: &str = r#""metallic": 0.2, "coat_weight": 0.8, "coat_roughness": 0.1, "coat_color": [1, 0.9, 0.8],
-    "sheen_color": [0.2, 0.2, 0.3], "transmission_weight": 0.4"#;
+    "sheen_color": [0.2, 0.2, 0.3], "transmission_weight": 0.4, "anisotropy": 0.7, "thin_film_weight": 0.5"#;
 
 /// A lobe whose weight is 0 leaves no trace, whatever its other numbers are; one that is there is one call of each kind.
 #[test]
 fn a_lobe_of_weight_zero_is_not_there() {
-    let off = r#""coat_weight": 0, "coat_roughness": 0.7, "coat_ior": 2, "sheen_roughness": 0.9"#;
+    let off = r#""coat_weight": 0, "coat_roughness": 0.7, "coat_ior": 2, "sheen_roughness": 0.9, "anisotropy": 0,
+        "anisotropy_rotation": 1, "thin_film_weight": 0, "thin_film_thickness": 0.2"#;
     for needs in [nothing(), sun(), environment()] {
         for fold in [Fold::Live, Fold::Export] {
             let plain = made(&material("", "", ""), &needs, fold);
             assert_eq!(plain.wgsl, made(&material(off, "", ""), &needs, fold).wgsl);
-            for word in ["coat", "sheen", "transmission"] {
+            for word in ["coat", "sheen", "transmission", "anisotropic", "film", "let tangent"] {
                 assert!(!plain.wgsl.contains(word), "{word}");
             }
         }
@@ -36,6 +37,54 @@ fn a_lobe_of_weight_zero_is_not_there() {
         for other in ["coat", "sheen", "transmission"].into_iter().filter(|other| *other != lobe) {
             assert!(!lit.contains(&format!("{other}_")) && !surrounded.contains(&format!("{other}_")), "{other}");
         }
+    }
+}
+
+/// A brushed base has a lobe of its own and a row of lookups; a film takes the place of the reflectances, for each light
+/// its own. What is turned by the document is a sheet instead of a body.
+#[test]
+fn brushed_filmed_and_thin() {
+    let brushed = exported(&material(r#""metallic": 1, "anisotropy": 0.5"#, "", ""), &sun()).wgsl;
+    assert!(brushed.contains("anisotropic_eval(") && !brushed.contains("specular_eval("), "{brushed}");
+    assert!(brushed.contains("in.world_tangent") && !brushed.contains("thin_film"), "{brushed}");
+    let surrounded = exported(&material(r#""metallic": 1, "anisotropy": 0.5"#, "", ""), &environment()).wgsl;
+    assert!(surrounded.contains("anisotropic_strip(frame, ") && !surrounded.contains("anisotropic_eval("));
+    let bent = Needs { methods: methods(&[("anisotropy", "bent")]), ..environment() };
+    let bent = exported(&material(r#""metallic": 1, "anisotropy": 0.5"#, "", ""), &bent).wgsl;
+    assert!(bent.contains("anisotropic_reflection(frame, ") && !bent.contains("anisotropic_strip("), "{bent}");
+    let pixel = Needs { methods: methods(&[("normal", "tbn_derivative")]), ..sun() };
+    let pixel = exported(&material(r#""anisotropy": 0.5"#, "", ""), &pixel).wgsl;
+    assert!(pixel.contains("tangent_from_derivatives(") && !pixel.contains("world_tangent"), "{pixel}");
+
+    let film = exported(&material(r#""thin_film_weight": 1"#, "", ""), &sun()).wgsl;
+    assert!(film.contains("Specular(directional_light_film, directional_light_film, specular.alpha)"), "{film}");
+    assert!(film.contains("energy_compensation("), "a film may reflect much: {film}");
+
+    let mut sheet = material(r#""transmission_weight": 1"#, "", "");
+    for thin_walled in [false, true] {
+        sheet.surface.thin_walled = thin_walled;
+        let lit = exported(&sheet, &sun()).wgsl;
+        assert_eq!(lit.contains("transmission_thin_eval("), thin_walled, "{lit}");
+        let surrounded = exported(&sheet, &environment()).wgsl;
+        assert_eq!(surrounded.contains("transmission_lookup("), !thin_walled, "{surrounded}");
+    }
+}
+
+/// Labels may be the names of what the shading declares.
+#[test]
+fn labels_do_not_meet_the_names_of_lobes() {
+    let everything = Needs { directional_lights: 1, point_lights: 2, ..environment() };
+    let plain = exported(&material(ALL_LOBES, "", ""), &everything).wgsl;
+    let declared = |line: &str| {
+        let line = line.trim_start();
+        let name = line.strip_prefix("let ").or_else(|| line.strip_prefix("var "))?;
+        Some(name.split([' ', ':']).next()?.to_owned())
+    };
+    let body = plain.split("fn fs_main").nth(1).and_then(|text| text.split("\n}").next()).expect("an entry point");
+    for name in body.lines().filter_map(declared) {
+        let noise = format!(r#""noise": {{"node": "procedural/value_noise_2d", "label": "{name}"}}"#);
+        let link = r#"{"from": "noise.out", "to": "surface.perceptual_roughness"}"#;
+        made(&material(ALL_LOBES, &noise, link), &everything, Fold::Export);
     }
 }
 

@@ -192,6 +192,13 @@ fn read_parameter(value: &Spanned, place: &str) -> Result<(Parameter, bool), Wro
     }
 }
 
+fn boolean(value: &Spanned, place: &str) -> Result<bool, Wrong> {
+    match value.json {
+        Json::Bool(b) => Ok(b),
+        _ => wrong(value.at, place, format!("true or false is needed, not {}", value.json.kind())),
+    }
+}
+
 /// Reads a field of the surface settings; false when there is no such field.
 fn read_surface_field(surface: &mut SurfaceSettings, key: &str, value: &Spanned) -> Result<bool, Wrong> {
     let place = &format!("surface.{key}");
@@ -201,10 +208,8 @@ fn read_surface_field(surface: &mut SurfaceSettings, key: &str, value: &Spanned)
             surface.alpha_mode = choice(value, place, &modes)?;
         }
         "alpha_cutoff" => surface.alpha_cutoff = number(value, place)?,
-        "double_sided" => match value.json {
-            Json::Bool(b) => surface.double_sided = b,
-            _ => return wrong(value.at, place, format!("true or false is needed, not {}", value.json.kind())),
-        },
+        "double_sided" => surface.double_sided = boolean(value, place)?,
+        "thin_walled" => surface.thin_walled = boolean(value, place)?,
         _ => return Ok(false),
     }
     Ok(true)

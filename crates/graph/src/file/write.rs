@@ -98,14 +98,17 @@ fn surface_json(document: &Document) -> Option<String> {
         ("alpha_mode", quoted(surface.alpha_mode.name()), surface.alpha_mode == default.alpha_mode),
         ("alpha_cutoff", number(surface.alpha_cutoff), surface.alpha_cutoff == default.alpha_cutoff),
         ("double_sided", surface.double_sided.to_string(), !surface.double_sided),
+        ("thin_walled", surface.thin_walled.to_string(), !surface.thin_walled),
     ];
+    let written = |name: &str, is_default: bool| !is_default || name != "thin_walled" || kept.contains_key(name);
     let mut fields: Vec<String> = known
         .iter()
+        .filter(|(name, _, is_default)| written(name, *is_default))
         .map(|(name, json, is_default)| match kept.get(*name) {
             Some(raw) if *is_default => format!("\"{name}\": {}", plain_json(raw)),
             _ => format!("\"{name}\": {json}"),
         })
         .collect();
-    push_unknown(&mut fields, kept, &["alpha_mode", "alpha_cutoff", "double_sided"]);
+    push_unknown(&mut fields, kept, &["alpha_mode", "alpha_cutoff", "double_sided", "thin_walled"]);
     Some(format!("{{{}}}", fields.join(", ")))
 }

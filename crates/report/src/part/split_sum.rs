@@ -58,7 +58,7 @@ pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment) 
 }
 
 /// The pieces of a map's texels: direction x, y, z, and radiance times solid angle.
-fn cells(map: &Equirect) -> Vec<[f64; 6]> {
+pub(super) fn cells(map: &Equirect) -> Vec<[f64; 6]> {
     let (width, height) = (PIECES * map.width, PIECES * map.height);
     let cell = |k: usize| {
         let (row, column) = (k / width, k % width);
@@ -72,7 +72,7 @@ fn cells(map: &Equirect) -> Vec<[f64; 6]> {
 }
 
 /// A unit direction at this cosine to the unit normal.
-fn view(n: [f64; 3], n_dot_v: f64) -> [f64; 3] {
+pub(super) fn view(n: [f64; 3], n_dot_v: f64) -> [f64; 3] {
     let aside = if n[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
     let along = n[0] * aside[0] + n[1] * aside[1] + n[2] * aside[2];
     let tangent = unit(std::array::from_fn(|i| aside[i] - along * n[i]));

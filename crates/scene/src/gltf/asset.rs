@@ -13,11 +13,16 @@ use crate::environment::read_limited;
 pub const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// Extensions that are understood where a file requires them.
-const UNDERSTOOD: [&str; 6] = [
+const UNDERSTOOD: [&str; 11] = [
     "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_sheen",
     "KHR_materials_specular",
+    "KHR_materials_transmission",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 ];

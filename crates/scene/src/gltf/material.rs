@@ -1,5 +1,7 @@
 //! Materials: glTF's metallic-roughness model becomes a material document made of the same nodes that a person would wire.
 
+mod lobes;
+
 use std::collections::BTreeMap;
 
 use gltf::json::extensions::texture::TextureTransform;
@@ -77,6 +79,7 @@ impl Builder<'_> {
             alpha_mode: mode,
             alpha_cutoff: self.number(material.alpha_cutoff.unwrap_or_default().0, "alphaCutoff")?,
             double_sided: material.double_sided,
+            thin_walled: false,
         };
 
         let [r, g, b, alpha] = pbr.base_color_factor.0;
@@ -104,7 +107,8 @@ impl Builder<'_> {
         self.fill_normal(material)?;
         self.fill_occlusion(material)?;
         self.fill_emission(material)?;
-        self.fill_specular(material)
+        self.fill_specular(material)?;
+        self.fill_lobes(material)
     }
 
     fn fill_normal(&mut self, material: &Material) -> Result<()> {

@@ -203,8 +203,8 @@ fn what_is_passed_over_is_noted() {
     let mut builder = Builder::triangle();
     builder.attribute("COLOR_0", &[[1.0, 0.0, 0.0]; 3]);
     builder.attribute("_TEMPERATURE", &[[1.0]; 3]);
-    builder.json["extensionsUsed"] = json!(["KHR_materials_clearcoat"]);
+    builder.json["extensionsUsed"] = json!(["KHR_materials_dispersion"]);
     add(&mut builder, "skins", json!({"joints": [0]}));
     let notes = builder.load().unwrap().notes.join("; ");
-    assert!(notes.contains("vertex colours, skins") && notes.contains("KHR_materials_clearcoat"), "{notes}");
+    assert!(notes.contains("vertex colours, skins") && notes.contains("KHR_materials_dispersion"), "{notes}");
 }

@@ -184,3 +184,85 @@ fn tangents_follow_the_normal_maps_coordinates() {
     let mesh = &builder.load().unwrap().meshes[0];
     assert!(mesh.tangents.iter().all(|t| (t[1] - 1.0).abs() < 1e-6), "{:?}", mesh.tangents);
 }
+
+/// The values and links of every lobe, each factor and texture by its own number.
+#[test]
+fn lobes_are_the_extensions() {
+    let lobes = document(
+        json!({
+            "extensions": {
+                "KHR_materials_clearcoat": {
+                    "clearcoatFactor": 0.8, "clearcoatRoughnessFactor": 0.2, "clearcoatRoughnessTexture": {"index": 1},
+                    "clearcoatNormalTexture": {"index": 2, "scale": 0.5}},
+                "KHR_materials_sheen": {"sheenColorFactor": [0.3, 0.2, 0.1], "sheenRoughnessFactor": 0.6},
+                "KHR_materials_transmission": {"transmissionFactor": 0.9},
+                "KHR_materials_anisotropy": {"anisotropyStrength": 0.7, "anisotropyRotation": 1.5},
+                "KHR_materials_iridescence": {"iridescenceFactor": 1.0, "iridescenceThicknessMaximum": 550}
+            }
+        }),
+        |_| {},
+    );
+    let values = &lobes.graph.nodes["surface"].values;
+    for (socket, value) in [
+        ("coat_weight", 0.8),
+        ("sheen_roughness", 0.6),
+        ("transmission_weight", 0.9),
+        ("anisotropy", 0.7),
+        ("anisotropy_rotation", 1.5),
+        ("thin_film_weight", 1.0),
+        ("thin_film_ior", 1.3),
+        ("thin_film_thickness", 0.55),
+    ] {
+        assert_eq!(values[socket], Value::Number(value), "{socket}");
+    }
+    assert_eq!(values["sheen_color"], Value::Vec3([0.3, 0.2, 0.1]));
+    assert!(lobes.surface.thin_walled, "no volume: a sheet");
+    let links = links(&lobes);
+    for link in [
+        "coat_roughness_map.g -> coat_roughness_factor.a",
+        "coat_roughness_factor.out -> surface.coat_roughness",
+        "coat_normal_map.color -> coat_normal.color",
+        "coat_normal.out -> surface.coat_normal",
+    ] {
+        assert!(links.contains(&link.to_owned()), "{link} is not among {links:?}");
+    }
+}
+
+#[test]
+fn directions_and_thicknesses_come_from_textures() {
+    let brushed = document(
+        json!({"extensions": {
+            "KHR_materials_anisotropy": {
+                "anisotropyStrength": 0.7, "anisotropyRotation": 0.5, "anisotropyTexture": {"index": 1}},
+            "KHR_materials_iridescence": {"iridescenceFactor": 1.0, "iridescenceThicknessTexture": {"index": 0}},
+            "KHR_materials_transmission": {"transmissionFactor": 1.0},
+            "KHR_materials_volume": {"thicknessFactor": 2.0}
+        }}),
+        |_| {},
+    );
+    assert!(!brushed.surface.thin_walled, "a volume: a body");
+    let links = links(&brushed);
+    for link in [
+        "anisotropy_map.b -> anisotropy_factor.a",
+        "anisotropy_map.r -> anisotropy_x.a",
+        "anisotropy_angle.out -> anisotropy_turned.a",
+        "anisotropy_turned.out -> surface.anisotropy_rotation",
+        "film_thickness_map.g -> film_thickness.t",
+    ] {
+        assert!(links.contains(&link.to_owned()), "{link} is not among {links:?}");
+    }
+}
+
+#[test]
+fn what_is_not_read_is_noted_and_what_is_wrong_is_named() {
+    let load = |extensions: Json| {
+        let mut builder = Builder::triangle();
+        add(&mut builder, "materials", json!({"name": "Jelly", "extensions": extensions}));
+        builder.primitive()["material"] = 0.into();
+        builder.load()
+    };
+    let model = load(json!({"KHR_materials_volume": {"thicknessFactor": 1.0}})).unwrap();
+    assert!(model.notes.iter().any(|note| note.contains("Jelly") && note.contains("KHR_materials_volume")));
+    let error = load(json!({"KHR_materials_clearcoat": {"clearcoatFactor": "much"}})).unwrap_err().to_string();
+    assert!(error.contains("materials[0]") && error.contains("clearcoatFactor"), "{error}");
+}
