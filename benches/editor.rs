@@ -48,7 +48,8 @@ fn picture(criterion: &mut Criterion) {
     let light = Arc::new(bake(&halfvector_ibl::studio(), &BakeOptions { size: 64, ..BakeOptions::default() }));
     let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
     let mut scene = Scene::from_material(thirty_nodes(10.0, false), "".as_ref(), &sphere).expect("a scene");
-    let options = RenderOptions { width: 256, height: 256, samples_per_side: 1, fold: Fold::Live, ..Default::default() };
+    let options =
+        RenderOptions { width: 256, height: 256, samples_per_side: 1, fold: Fold::Live, ..Default::default() };
     let mut cache = Cache::default();
     let mut group = criterion.benchmark_group("picture");
     group.sample_size(20);

@@ -137,8 +137,7 @@ impl Bench {
         outbox.send(Told::Progress("The reference".to_owned(), 0.0));
         let options = RenderOptions { width: EDGE, height: EDGE, shadows: false, ..RenderOptions::default() };
         let loaded = job.light.as_ref().map(|light| &light.loaded);
-        let mut reference =
-            Reference::new(self.easel.scene(), loaded, options).map_err(|error| error.to_string())?;
+        let mut reference = Reference::new(self.easel.scene(), loaded, options).map_err(|error| error.to_string())?;
         let truth = loop {
             reference.add_samples(16, &|_| {}).map_err(|error| error.to_string())?;
             let truth = reference.picture();
@@ -179,8 +178,7 @@ impl Bench {
             };
             shot.stage.methods = methods;
             let picture = self.draw(&shot, SAMPLES)?;
-            let drawn: Vec<[f64; 3]> =
-                picture.pixels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect();
+            let drawn: Vec<[f64; 3]> = picture.pixels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect();
             let flip = flip_hdr(&radiance, &drawn, EDGE as usize, FlipOptions::default());
             let plain = difference(&drawn, &radiance, Some(&truth.standard_error));
             outbox.send(Told::Row(Row {
@@ -252,8 +250,8 @@ fn reflected(picture: &Picture) -> [f64; 3] {
 fn with_roughness(document: &Document, surface: &str, roughness: f32) -> Document {
     let mut document = document.clone();
     let socket = SocketRef::new(surface, "perceptual_roughness");
-    document.links.retain(|link| link.to != socket);
-    if let Some(node) = document.nodes.get_mut(surface) {
+    document.graph.links.retain(|link| link.to != socket);
+    if let Some(node) = document.graph.nodes.get_mut(surface) {
         node.values.insert(socket.socket, Value::Number(roughness));
     }
     document

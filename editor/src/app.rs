@@ -8,7 +8,8 @@ use egui_tiles::{Container, Linear, LinearDir, SimplificationOptions, TileId, Ti
 use crate::action::Action;
 use crate::paint::Gpu;
 use crate::panes::{
-    accuracy::Accuracy, canvas::Canvas, code::Code, inspector::Inspector, library::LibraryPane, problems::Problems, viewport::Viewport,
+    accuracy::Accuracy, canvas::Canvas, code::Code, inspector::Inspector, library::LibraryPane, problems::Problems,
+    viewport::Viewport,
 };
 use crate::session::Session;
 use crate::stage::Stage;
@@ -90,20 +91,13 @@ impl Editor {
         let gpu = Gpu::new(!options.without_gpu);
         let panes = Panes {
             canvas: Canvas::default(),
-<<<<<<< HEAD
-            viewport: Viewport::new(context),
+            viewport: Viewport::new(context, &gpu),
             inspector: Inspector,
             code: Code::new(context),
             problems: Problems,
-=======
-            viewport: Viewport::new(context, &gpu),
-            inspector: Inspector::default(),
-            code: Code::new(context),
-            problems: Problems::default(),
             library: LibraryPane::default(),
             accuracy: Accuracy::new(context, &gpu),
             thumbnails: Thumbnails::new(context, &gpu),
->>>>>>> 97b3c5c (editor: viewport, thumbnails, library, accuracy)
         };
         Editor { session, panes, tree: start_layout(), message }
     }
@@ -120,7 +114,10 @@ impl Editor {
 
     /// Whether all that is shown is up to date: no picture and no shader is being made.
     pub fn is_idle(&self) -> bool {
-        self.panes.viewport.is_idle() && self.panes.code.is_idle() && self.panes.thumbnails.is_idle() && self.panes.accuracy.is_idle()
+        self.panes.viewport.is_idle()
+            && self.panes.code.is_idle()
+            && self.panes.thumbnails.is_idle()
+            && self.panes.accuracy.is_idle()
     }
 
     /// Carries out what a person does.

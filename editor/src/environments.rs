@@ -130,7 +130,9 @@ impl Environments {
         let is_asked = self.baking.as_ref().is_some_and(|(baking, _)| is_known(baking));
         let has_failed = self.failed.as_ref().is_some_and(|(failed, _)| is_known(failed));
         // One after the other: the other side's may be under way.
-        if !is_asked && !has_failed && self.baking.is_none()
+        if !is_asked
+            && !has_failed
+            && self.baking.is_none()
             && let Some(worker) = &self.worker
         {
             worker.submit(Job { key: key.clone(), methods: methods.clone() });

@@ -135,7 +135,7 @@ impl Session {
 
     /// Replaces the selection; ids of no node are passed over.
     pub(crate) fn select(&mut self, nodes: impl IntoIterator<Item = NodeId>) {
-        self.selection = nodes.into_iter().filter(|id| self.document.nodes.contains_key(id)).collect();
+        self.selection = nodes.into_iter().filter(|id| self.document.graph.nodes.contains_key(id)).collect();
     }
 
     /// Writes the document to a file, which becomes its own.
@@ -149,7 +149,7 @@ impl Session {
     fn changed(&mut self) {
         self.revision += 1;
         self.problems = check(&self.document, Library::standard());
-        self.selection.retain(|id| self.document.nodes.contains_key(id));
+        self.selection.retain(|id| self.document.graph.nodes.contains_key(id));
     }
 }
 

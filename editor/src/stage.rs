@@ -3,8 +3,8 @@
 use glam::{Quat, Vec3};
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::ToneMap;
-use halfvector_scene::scene::MeshSource;
 use halfvector_scene::mesh::Bounds;
+use halfvector_scene::scene::MeshSource;
 use halfvector_scene::{BuiltinMesh, Camera, Display, EnvironmentSource, Light};
 
 /// Everything about a picture but the material.

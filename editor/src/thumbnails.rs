@@ -196,7 +196,7 @@ impl Thumbnails {
 /// What shows an output of a node, if anything can.
 fn preview(session: &Session, node: &str, output: &str) -> Option<Subject> {
     let (document, library) = (session.document(), Library::standard());
-    let ty = resolve_types(document, library).get(node)?.output(output)?;
+    let ty = resolve_types(&document.graph, library).get(node)?.output(output)?;
     if ty == SocketType::Surface {
         let key = format!("material {}", to_json(document)).into();
         let (document, directory) = (document.clone(), session.directory());
@@ -211,26 +211,28 @@ fn preview(session: &Session, node: &str, output: &str) -> Option<Subject> {
 /// The part of a document that an output depends on, as a surface that glows with it, and what that is seen on.
 fn glowing(document: &Document, node: &str, output: &str, ty: SocketType) -> Option<(Document, BuiltinMesh)> {
     let mut cut = Document::new("preview");
-    let upstream = Wiring::new(document).order(&[node]).ok()?;
+    cut.groups.clone_from(&document.groups);
+    let upstream = Wiring::new(&document.graph).order(&[node]).ok()?;
     for id in upstream {
-        cut.nodes.insert(id.to_owned(), document.nodes.get(id)?.clone());
+        cut.graph.nodes.insert(id.to_owned(), document.graph.nodes.get(id)?.clone());
     }
-    let inside = |link: &&Link| cut.nodes.contains_key(&link.from.node) && cut.nodes.contains_key(&link.to.node);
-    cut.links = document.links.iter().filter(inside).cloned().collect();
-    let depends_on_view = cut.nodes.values().any(|node| {
+    let nodes = &cut.graph.nodes;
+    let inside = |link: &&Link| nodes.contains_key(&link.from.node) && nodes.contains_key(&link.to.node);
+    cut.graph.links = document.graph.links.iter().filter(inside).cloned().collect();
+    let depends_on_view = cut.graph.nodes.values().any(|node| {
         node.node.starts_with("geometry/")
             || ["coordinates/spherical", "coordinates/cylindrical", "coordinates/matcap", "coordinates/box"]
                 .contains(&node.node.as_str())
     });
-    let is_direction = document.nodes.get(node).is_some_and(|node| {
+    let is_direction = document.graph.nodes.get(node).is_some_and(|node| {
         let directions = ["geometry/tangent", "geometry/bitangent", "geometry/view_dir", "geometry/mirror_dir"];
         node.node.contains("normal") || directions.contains(&node.node.as_str())
     });
     let mut from = SocketRef::new(node, output);
     let add = |cut: &mut Document, from: SocketRef, node: Node, input: &str, output: &str| {
-        let id = cut.free_id("preview");
-        cut.nodes.insert(id.clone(), node);
-        cut.links.push(Link::new(from, SocketRef::new(&id, input)));
+        let id = cut.graph.free_id("preview");
+        cut.graph.nodes.insert(id.clone(), node);
+        cut.graph.links.push(Link::new(from, SocketRef::new(&id, input)));
         SocketRef::new(&id, output)
     };
     match ty {
@@ -249,7 +251,7 @@ fn glowing(document: &Document, node: &str, output: &str, ty: SocketType) -> Opt
             let parts = add(&mut cut, from, Node::new("vector/separate2"), "v", "x");
             let y = SocketRef::new(&parts.node, "y");
             let color = add(&mut cut, parts, Node::new("vector/combine3"), "x", "out");
-            cut.links.push(Link::new(y, SocketRef::new(&color.node, "y")));
+            cut.graph.links.push(Link::new(y, SocketRef::new(&color.node, "y")));
             from = color;
         }
         SocketType::Value(Type::Bool) => {
@@ -258,21 +260,15 @@ fn glowing(document: &Document, node: &str, output: &str, ty: SocketType) -> Opt
         }
         SocketType::Generic | SocketType::Texture | SocketType::Surface => return None,
     }
-    let surface = Node::new("surface/surface")
-        .with("base_color", Value::Vec3([0.0; 3]))
-        .with("specular", Value::Number(0.0));
+    let surface =
+        Node::new("surface/surface").with("base_color", Value::Vec3([0.0; 3])).with("specular", Value::Number(0.0));
     add(&mut cut, from, surface, "emission", "");
     surface_node(&cut, Library::standard())?;
     Some((cut, if depends_on_view { BuiltinMesh::Sphere } else { BuiltinMesh::Plane }))
 }
 
 /// A picture of a subject; none when it has problems.
-fn drawn(
-    subject: &Subject,
-    easel: &mut Easel,
-    gpu: &Gpu,
-    studio: &mut Option<Arc<Light>>,
-) -> Option<egui::ColorImage> {
+fn drawn(subject: &Subject, easel: &mut Easel, gpu: &Gpu, studio: &mut Option<Arc<Light>>) -> Option<egui::ColorImage> {
     let mut camera = Camera::default();
     camera.vertical_fov = match (subject.is_lit, subject.mesh) {
         // The plane fills the picture, the sphere nearly.

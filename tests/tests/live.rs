@@ -11,13 +11,8 @@ use halfvector_scene::{BuiltinMesh, Light, MeshSource, Scene};
 
 use crate::support::{renderer, root};
 
-const OPTIONS: RenderOptions = RenderOptions {
-    width: 12,
-    height: 12,
-    samples_per_side: 1,
-    fold: halfvector_codegen::Fold::Live,
-    tile_edge: 2048,
-};
+const OPTIONS: RenderOptions =
+    RenderOptions { width: 12, height: 12, samples_per_side: 1, fold: halfvector_codegen::Fold::Live, tile_edge: 2048 };
 
 fn example(name: &str) -> Scene {
     let folder = root().join("examples");
@@ -47,7 +42,7 @@ fn draw(gpu: &Renderer, cache: &mut Cache, scene: &Scene, light: &Arc<BakedEnvir
 /// Each number of each value of a document, a little larger.
 fn nudged(document: &Document) -> Vec<(String, Document)> {
     let mut all = Vec::new();
-    for (id, node) in &document.nodes {
+    for (id, node) in &document.graph.nodes {
         for (socket, value) in &node.values {
             let nudge = |x: f32| x * 1.03 + 0.004;
             let value = match value {
@@ -60,7 +55,7 @@ fn nudged(document: &Document) -> Vec<(String, Document)> {
                 Value::Bool(_) | Value::Image(_) => continue,
             };
             let mut changed = document.clone();
-            changed.nodes.get_mut(id).expect("itself").values.insert(socket.clone(), value);
+            changed.graph.nodes.get_mut(id).expect("itself").values.insert(socket.clone(), value);
             all.push((format!("{id}.{socket}"), changed));
         }
     }
@@ -95,12 +90,12 @@ fn dragging_a_number_compiles_nothing_and_an_edit_one_program() {
 
     // A wire more is one program more, and taking it back none.
     let mut wired = document.clone();
-    wired.nodes.insert("more".into(), Node::new("math/multiply").with("b", Value::Number(0.7)));
+    wired.graph.nodes.insert("more".into(), Node::new("math/multiply").with("b", Value::Number(0.7)));
     let surface = SocketRef::new("surface", "occlusion");
-    wired.links.retain(|link| link.to != surface);
-    let noise = document.links.iter().find(|link| link.from.socket == "out").expect("a wire").from.clone();
-    wired.links.push(Link::new(noise, SocketRef::new("more", "a")));
-    wired.links.push(Link::new(SocketRef::new("more", "out"), surface));
+    wired.graph.links.retain(|link| link.to != surface);
+    let noise = document.graph.links.iter().find(|link| link.from.socket == "out").expect("a wire").from.clone();
+    wired.graph.links.push(Link::new(noise, SocketRef::new("more", "a")));
+    wired.graph.links.push(Link::new(SocketRef::new("more", "out"), surface));
     scene.materials[0].document = wired;
     let made = draw(&gpu, &mut cache, &scene, &light);
     assert_eq!((made.programs, made.pipelines, made.meshes, made.textures), (1, 1, 0, 0));

@@ -153,9 +153,8 @@ impl Cache {
         needs: &Needs,
         fold: Fold,
     ) -> Result<Arc<Shader>, RenderError> {
-        let same = |known: &&mut KnownShader| {
-            known.fold == fold && known.needs == *needs && known.document == *document
-        };
+        let same =
+            |known: &&mut KnownShader| known.fold == fold && known.needs == *needs && known.document == *document;
         if let Some(known) = self.shaders.iter_mut().find(same) {
             known.used = self.picture;
             return Ok(known.shader.clone());
@@ -215,12 +214,7 @@ impl Cache {
     }
 
     /// The buffers of mesh number `number`.
-    pub(crate) fn mesh(
-        &mut self,
-        gpu: &Gpu,
-        number: usize,
-        mesh: &Arc<Mesh>,
-    ) -> Result<&mut MeshBuffers, RenderError> {
+    pub(crate) fn mesh(&mut self, gpu: &Gpu, number: usize, mesh: &Arc<Mesh>) -> Result<&mut MeshBuffers, RenderError> {
         let made = &mut self.made;
         let held = self.meshes.get(Arc::as_ptr(mesh) as usize, self.picture, || {
             made.meshes += 1;
@@ -232,7 +226,12 @@ impl Cache {
 
     fn environment(&mut self, lit: Lit<'_>) -> &mut EnvironmentViews {
         let key = std::ptr::from_ref(lit.baked) as usize;
-        let make = || Ok::<_, std::convert::Infallible>((EnvironmentViews { _of: lit.keeper.cloned(), radiance: None, irradiance: None }, 1));
+        let make = || {
+            Ok::<_, std::convert::Infallible>((
+                EnvironmentViews { _of: lit.keeper.cloned(), radiance: None, irradiance: None },
+                1,
+            ))
+        };
         let Ok(views) = self.environments.get(key, self.picture, make);
         views
     }
@@ -289,8 +288,7 @@ impl Cache {
         // Colour, depth and what they are read back through.
         let bytes = u64::from(width) * u64::from(height) * (16 + 4 + 16);
         let make = || Ok::<_, std::convert::Infallible>((Target::new(gpu, format, width, height), bytes));
-        let Ok(target) =
-            self.targets.get((format, width, height), self.picture, make);
+        let Ok(target) = self.targets.get((format, width, height), self.picture, make);
         target
     }
 }

@@ -31,7 +31,9 @@ impl Easel {
         let stage = &shot.stage;
         if self.mesh.as_ref() != Some(&stage.mesh) {
             let mut fresh = Scene::default();
-            fresh.materials.push(SceneMaterial { document: (*shot.document).clone(), directory: shot.directory.clone() });
+            fresh
+                .materials
+                .push(SceneMaterial { document: (*shot.document).clone(), directory: shot.directory.clone() });
             fresh.set_mesh(&stage.mesh).map_err(|error| Fault::Mesh(error.to_string()))?;
             self.bounds = fresh.bounds();
             self.mesh = Some(stage.mesh.clone());

@@ -60,7 +60,8 @@ impl Accuracy {
                     if ui.button("Measure errors").on_hover_text(help).clicked() {
                         start = Some(What::Errors);
                     }
-                    let help = "Radiance 1 from everywhere: a white surface must vanish, nothing may be brighter than 1";
+                    let help =
+                        "Radiance 1 from everywhere: a white surface must vanish, nothing may be brighter than 1";
                     if ui.button("Furnace test").on_hover_text(help).clicked() {
                         start = Some(What::Furnace);
                     }
@@ -164,11 +165,9 @@ impl Accuracy {
                     change if change > 0.0005 => theme::WARNING,
                     _ => ui.visuals().text_color(),
                 };
-                for text in [
-                    format!("{:.4}", row.flip),
-                    format!("{:.4}", row.rmse),
-                    format!("{:+.2} %", 100.0 * row.brighter),
-                ] {
+                for text in
+                    [format!("{:.4}", row.flip), format!("{:.4}", row.rmse), format!("{:+.2} %", 100.0 * row.brighter)]
+                {
                     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                         ui.label(egui::RichText::new(text).monospace().color(color));
                     });

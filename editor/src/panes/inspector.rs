@@ -24,19 +24,19 @@ impl Inspector {
                 ui.weak("Select one node to see its inputs.");
                 return;
             };
-            let Some(node) = document.nodes.get(id) else { return };
+            let Some(node) = document.graph.nodes.get(id) else { return };
             let Some(def) = Library::standard().get(&node.node) else { return };
             ui.heading(node.label.as_deref().unwrap_or(&def.label)).on_hover_text(&def.help);
             egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 for input in &def.inputs {
                     let socket = SocketRef::new(id, &input.name);
-                    let value = document.value(&socket).cloned().or_else(|| match &input.default {
+                    let value = document.graph.value(&socket).cloned().or_else(|| match &input.default {
                         SocketDefault::Value(value) => Some(value.clone()),
                         _ => None,
                     });
                     ui.horizontal(|ui| {
                         ui.label(&input.name).on_hover_text(&input.help);
-                        if let Some(from) = document.incoming(&socket) {
+                        if let Some(from) = document.graph.incoming(&socket) {
                             ui.weak(from.to_string());
                         } else if let Some(Value::Number(number)) = value {
                             let mut number = number;

@@ -138,9 +138,7 @@ impl Viewport {
         self.take_picked(ui);
         egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 4)).show(ui, |ui| self.toolbar(ui, session));
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
-        response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "Picture of the material")
-        });
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "Picture of the material"));
         self.take_dropped(ui, &response, actions);
         self.turn(ui, &response);
         self.poll(ui);
@@ -269,7 +267,8 @@ impl Viewport {
                 continue;
             }
             // What runs becomes stale: what it was to draw for the other side is asked again.
-            let is_open = |side: &Side| side.shown.as_ref().is_none_or(|shown| shown.key != side.key || !shown.is_final);
+            let is_open =
+                |side: &Side| side.shown.as_ref().is_none_or(|shown| shown.key != side.key || !shown.is_final);
             let requests = self.sides[..count].iter().enumerate().filter(|(_, side)| of_engine(side) && is_open(side));
             let requests = requests.filter_map(|(number, side)| Some(request(number, side.key, side.wish.as_ref()?)));
             painter.submit(requests.collect());
@@ -337,7 +336,8 @@ impl Viewport {
     fn set_mesh(&mut self, mesh: MeshSource) {
         self.frames = matches!(mesh, MeshSource::File(_));
         if !self.frames {
-            self.stage.orbit = Orbit { yaw: self.stage.orbit.yaw, pitch: self.stage.orbit.pitch, ..Stage::default().orbit };
+            self.stage.orbit =
+                Orbit { yaw: self.stage.orbit.yaw, pitch: self.stage.orbit.pitch, ..Stage::default().orbit };
         }
         self.stage.mesh = mesh;
     }

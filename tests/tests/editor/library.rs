@@ -17,16 +17,20 @@ fn every_material_is_sound_and_is_drawn() {
     let light = bake(&halfvector_ibl::studio(), &BakeOptions { size: 16, irradiance_size: 4, ..Default::default() });
     let options = RasterOptions { width: 8, height: 8, samples_per_side: 1, ..RasterOptions::default() };
     let mut materials = 0;
-    let mut files: Vec<_> = std::fs::read_dir(folder).expect("the library").map(|file| file.expect("a file").path()).collect();
+    let mut files: Vec<_> =
+        std::fs::read_dir(folder).expect("the library").map(|file| file.expect("a file").path()).collect();
     files.sort();
     for file in files {
         let document = halfvector_graph::file::load(&file).expect("a material");
+        let text = std::fs::read_to_string(&file).expect("text");
+        assert_eq!(halfvector_graph::file::to_json(&document), text, "{} is not as it would be saved", file.display());
         let problems = check(&document, Library::standard());
         assert!(problems.is_empty(), "{}: {problems:?}", file.display());
         let name = file.file_name().expect("a name").to_string_lossy().into_owned();
         materials += usize::from(!name.starts_with("template"));
         // A material of the library needs no file beside it.
-        let scene = Scene::from_material(document, "".as_ref(), &MeshSource::Builtin(BuiltinMesh::Cube)).expect("a scene");
+        let scene =
+            Scene::from_material(document, "".as_ref(), &MeshSource::Builtin(BuiltinMesh::Cube)).expect("a scene");
         let picture = draw::<f32>(&scene, Some(&light), &options, |_| {}).expect("a picture");
         assert!(picture.pixels.as_flattened().iter().all(|x| x.is_finite()), "{name} is not finite");
         let light: f32 = picture.pixels.iter().flat_map(|pixel| &pixel[..3]).sum();

@@ -201,7 +201,8 @@ impl Viewport {
         if let (true, Some(pointer)) = (response.dragged(), response.interact_pointer_pos()) {
             self.compare.divider = ((pointer.x - rect.left()) / rect.width().max(1.0)).clamp(0.0, 1.0);
         }
-        let color = if response.hovered() || response.dragged() { crate::theme::ACCENT } else { Color32::from_gray(200) };
+        let color =
+            if response.hovered() || response.dragged() { crate::theme::ACCENT } else { Color32::from_gray(200) };
         let painter = ui.painter().with_clip_rect(rect);
         painter.vline(x, rect.y_range(), egui::Stroke::new(1.5, color));
         painter.circle(egui::pos2(x, rect.center().y), 6.0, color, egui::Stroke::new(1.0, Color32::from_gray(30)));
@@ -254,7 +255,10 @@ impl Viewport {
         for step in 0..steps {
             let [r, g, b] = magma(f64::from(step) / f64::from(steps - 1));
             let left = bar.left() + bar.width() * step as f32 / steps as f32;
-            let cell = egui::Rect::from_min_size(egui::pos2(left, bar.top()), egui::vec2(bar.width() / steps as f32 + 0.5, 10.0));
+            let cell = egui::Rect::from_min_size(
+                egui::pos2(left, bar.top()),
+                egui::vec2(bar.width() / steps as f32 + 0.5, 10.0),
+            );
             painter.rect_filled(cell, 0.0, Color32::from_rgb(r, g, b));
         }
         caption(ui, bar.left_top() + egui::vec2(0.0, -3.0), egui::Align2::LEFT_BOTTOM, "0".to_owned());

@@ -45,7 +45,8 @@ impl Viewport {
                 });
                 if lamp.kind == LampKind::Spot {
                     ui.horizontal(|ui| {
-                        ui.label("Cone").on_hover_text("Full within the first angle from its axis, none beyond the second");
+                        ui.label("Cone")
+                            .on_hover_text("Full within the first angle from its axis, none beyond the second");
                         for angle in &mut lamp.cone {
                             ui.add(egui::DragValue::new(angle).range(0.5..=90.0).speed(0.2).suffix("°"));
                         }
