@@ -281,7 +281,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
         let Behavior { session, panes, actions } = self;
         match pane {
             Pane::Canvas => panes.canvas.show(ui, session, actions),
-            Pane::Viewport => panes.viewport.show(ui, session, actions),
+            Pane::Viewport => panes.viewport.show(ui, session, &mut panes.thumbnails, actions),
             Pane::Inspector => panes.inspector.show(ui, session, actions),
             Pane::Code => panes.code.show(ui, session, actions),
             Pane::Problems => panes.problems.show(ui, session, actions),

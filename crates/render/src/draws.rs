@@ -46,18 +46,20 @@ struct Ready {
     material: Option<wgpu::BindGroup>,
 }
 
+/// What is to be drawn.
+pub(crate) struct Wanted<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) needs: &'a Needs,
+    pub(crate) fold: Fold,
+    pub(crate) view: &'a View,
+    pub(crate) target: wgpu::TextureFormat,
+    pub(crate) environment: Option<Lit<'a>>,
+}
+
 /// Makes a scene ready: shaders of the materials that objects use, textures, buffers, and the order of drawing. What the
 /// cache has is taken from there.
-pub(crate) fn prepare(
-    gpu: &Gpu,
-    cache: &mut Cache,
-    scene: &Scene,
-    needs: &Needs,
-    fold: Fold,
-    view: &View,
-    target: wgpu::TextureFormat,
-    environment: Option<Lit<'_>>,
-) -> Result<Draws, RenderError> {
+pub(crate) fn prepare(gpu: &Gpu, cache: &mut Cache, wanted: &Wanted<'_>) -> Result<Draws, RenderError> {
+    let Wanted { scene, needs, fold, view, target, environment } = *wanted;
     let passes = passes(scene, view)?;
     let mut draws = Draws { blocks: Vec::new(), solid: Vec::new(), blended: Vec::new() };
     let mut resources = Resources { gpu, cache, scene, environment, visibility: dfg_visibility(&needs.methods) };

@@ -14,7 +14,7 @@ use halfvector_scene::{Background, Picture, Scene, View, tiles};
 use crate::bake::Filter;
 use crate::cache::{Cache, Lit};
 use crate::device::Gpu;
-use crate::draws::prepare;
+use crate::draws::{Wanted, prepare};
 use crate::error::RenderError;
 use crate::target::TILE_EDGE;
 
@@ -169,7 +169,8 @@ impl Renderer {
         let format = gpu.radiance_format(blends)?;
 
         let (draws, sky) = gpu.guarded("preparing the scene", || {
-            let draws = prepare(gpu, cache, scene, &needs, options.fold, &view, format, environment)?;
+            let wanted = Wanted { scene, needs: &needs, fold: options.fold, view: &view, target: format, environment };
+            let draws = prepare(gpu, cache, &wanted)?;
             let sky = match scene.background {
                 Background::Environment if environment.is_some() => {
                     let sampler = cache.sampler(gpu, &SamplerSource::LinearClamp);

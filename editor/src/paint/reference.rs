@@ -42,7 +42,8 @@ pub(super) fn render(easels: &mut [Easel; 2], requests: &[Request], stale: &Stal
     let (mut samples, mut round) = (0, 1);
     while samples < ENOUGH && !references.is_empty() {
         for (request, reference, bounds) in &mut references {
-            if stale.is_stale() {
+            // The first round is always finished, so that there is something to see while the view turns.
+            if samples > 0 && stale.is_stale() {
                 return;
             }
             if let Err(error) = reference.add_samples(round, &|_| {}) {

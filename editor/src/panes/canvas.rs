@@ -28,7 +28,7 @@ impl Canvas {
             actions.push(Action::Select(vec![node]));
         }
         for id in session.document().graph.nodes.keys() {
-            let label = node_label(session.document(), Library::standard(), id);
+            let label = node_label(&session.document().graph, Library::standard(), id);
             let definition =
                 session.document().graph.nodes.get(id).and_then(|node| Library::standard().get(&node.node));
             let output = definition.and_then(|definition| definition.outputs.first());

@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 use eframe::egui::{self, Color32, PointerButton, Sense};
 use halfvector_graph::document::Document;
+use halfvector_graph::library::Library;
+use halfvector_graph::value::SocketType;
 use halfvector_scene::mesh::Bounds;
 use halfvector_scene::{EnvironmentSource, MeshSource, Picture};
 
@@ -22,6 +24,7 @@ use crate::paint::{Drawn, Engine, Fault, Gpu, Noise, Painter, Request, Shot, sta
 use crate::session::Session;
 use crate::stage::{Orbit, Stage};
 use crate::theme;
+use crate::thumbnails::Thumbnails;
 use crate::work::Worker;
 
 /// The picture and what it shows the material on.
@@ -35,6 +38,8 @@ pub(crate) struct Viewport {
     compare: Compare,
     /// Numbers wishes.
     next_key: u64,
+    /// Numbers pictures.
+    next_serial: u64,
     /// Turns the camera by itself.
     turntable: bool,
     /// What a person should know, until it is closed.
@@ -62,15 +67,18 @@ struct Side {
 /// What was drawn last.
 struct Shown {
     key: u64,
+    /// Tells it from all others, finer ones of the same wish too.
+    serial: u64,
     picture: Arc<Picture>,
     by: String,
     milliseconds: f64,
+    /// Whether a program was compiled for it.
+    is_compiled: bool,
     noise: Option<Noise>,
     is_final: bool,
 }
 
 /// What a picture depends on.
-#[derive(Clone)]
 struct Wish {
     engine: Engine,
     document: Arc<Document>,
@@ -81,15 +89,15 @@ struct Wish {
     is_moving: bool,
 }
 
-impl PartialEq for Wish {
-    fn eq(&self, other: &Wish) -> bool {
+impl Wish {
+    /// Whether it is the same picture, coarse or fine.
+    fn is_same(&self, other: &Wish) -> bool {
         self.engine == other.engine
             && Arc::ptr_eq(&self.document, &other.document)
             && self.directory == other.directory
             && self.stage == other.stage
             && self.light.as_ref().map(Arc::as_ptr) == other.light.as_ref().map(Arc::as_ptr)
             && self.size == other.size
-            && self.is_moving == other.is_moving
     }
 }
 
@@ -104,6 +112,7 @@ impl Viewport {
             sides: Default::default(),
             compare: Compare::new(context),
             next_key: 0,
+            next_serial: 0,
             turntable: false,
             banner: None,
             good: (stage.mesh.clone(), stage.environment.clone()),
@@ -134,7 +143,13 @@ impl Viewport {
     }
 
     /// Draws the picture and takes drags of the pointer.
-    pub(crate) fn show(&mut self, ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut egui::Ui,
+        session: &Session,
+        thumbnails: &mut Thumbnails,
+        actions: &mut Vec<Action>,
+    ) {
         self.take_picked(ui);
         egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 4)).show(ui, |ui| self.toolbar(ui, session));
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
@@ -147,6 +162,7 @@ impl Viewport {
         self.paint_sides(ui, rect);
         self.lamp_handles(ui, rect);
         self.overlays(ui, rect);
+        selected(ui, rect, session, thumbnails);
     }
 
     /// Takes what the threads have done.
@@ -196,11 +212,14 @@ impl Viewport {
                 side.texture = Some(texture);
             }
         }
+        self.next_serial += 1;
         side.shown = Some(Shown {
             key: drawn.key,
+            serial: self.next_serial,
             picture: painting.picture,
             by: drawn.by,
             milliseconds: drawn.took.as_secs_f64() * 1e3,
+            is_compiled: painting.compiled > 0,
             noise: painting.noise,
             is_final: drawn.is_final,
         });
@@ -249,7 +268,10 @@ impl Viewport {
             };
             let wish = Wish { engine: choice.engine, document, directory, stage, light, size, is_moving };
             let side = &mut self.sides[number];
-            if side.wish.as_ref() != Some(&wish) {
+            // While something moves elsewhere the picture stays as it is; when it ends, a coarse one is refined.
+            let is_drawn =
+                side.wish.as_ref().is_some_and(|before| before.is_same(&wish) && (wish.is_moving || !before.is_moving));
+            if !is_drawn {
                 self.next_key += 1;
                 side.key = self.next_key;
                 has_new[wish.engine as usize] = true;
@@ -359,7 +381,8 @@ impl Viewport {
         if let Some(shown) = &side.shown
             && !self.compare.is_on()
         {
-            text = format!("{} · {:.0} ms", shown.by, shown.milliseconds);
+            let compiled = if shown.is_compiled { " · new shader" } else { "" };
+            text = format!("{} · {:.0} ms{compiled}", shown.by, shown.milliseconds);
             if let Some(noise) = &shown.noise {
                 text = format!("{} · {} paths, ±{:.1} %", shown.by, noise.samples, 100.0 * noise.share);
             }
@@ -394,7 +417,7 @@ impl Viewport {
             if let Some(banner) = self.banner.clone() {
                 note(ui, theme::ERROR, |ui| {
                     ui.label(banner);
-                    if ui.button("Close").on_hover_text("Removes this message").clicked() {
+                    if ui.button("Dismiss").on_hover_text("Removes this message").clicked() {
                         self.banner = None;
                     }
                 });
@@ -404,8 +427,36 @@ impl Viewport {
 }
 
 fn request(side: usize, key: u64, wish: &Wish) -> Request {
-    let Wish { document, directory, stage, light, size, is_moving, .. } = wish.clone();
+    let Wish { size, is_moving, .. } = *wish;
+    let (document, directory) = (wish.document.clone(), wish.directory.clone());
+    let (stage, light) = (wish.stage.clone(), wish.light.clone());
     Request { side, key, shot: Shot { document, directory, stage, light, size, is_moving } }
+}
+
+/// What the selected node gives, in the corner of the picture: its outputs one beside the other.
+fn selected(ui: &mut egui::Ui, rect: egui::Rect, session: &Session, thumbnails: &mut Thumbnails) {
+    const EDGE: f32 = 72.0;
+    let document = session.document();
+    let mut nodes = session.selection().iter();
+    let (Some(id), None) = (nodes.next(), nodes.next()) else { return };
+    let Some(definition) = document.graph.nodes.get(id).and_then(|node| Library::standard().get(&node.node)) else {
+        return;
+    };
+    let outputs = definition.outputs.iter().filter(|output| output.ty != SocketType::Surface).take(3);
+    let mut right = rect.right() - 8.0;
+    for output in outputs {
+        let corner = egui::pos2(right - EDGE, rect.bottom() - EDGE - 8.0);
+        let place = egui::Rect::from_min_size(corner, egui::Vec2::splat(EDGE));
+        if place.left() < rect.center().x || rect.height() < 2.0 * EDGE {
+            return;
+        }
+        ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
+            let response = thumbnails.show(ui, session, id, &output.name, EDGE);
+            response.on_hover_text(format!("{}: {}", output.name, output.help));
+        });
+        ui.painter().rect_stroke(place, 4.0, egui::Stroke::new(1.0, theme::ACCENT), egui::StrokeKind::Outside);
+        right = place.left() - 6.0;
+    }
 }
 
 /// A message with a stroke of its colour, over the picture.

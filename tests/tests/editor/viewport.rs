@@ -71,9 +71,9 @@ fn a_drag_turns_the_view_and_frame_brings_it_back() {
     let turned = harness.state().stage().orbit;
     assert!(turned.yaw < before.yaw - 0.1 && turned.pitch > before.pitch + 0.05, "{turned:?}");
     assert_eq!((turned.target, turned.distance), (before.target, before.distance));
-    harness.input_mut().modifiers.shift = true;
+    harness.event(egui::Event::ModifiersChanged(egui::Modifiers::SHIFT));
     drag(&mut harness, PICTURE, [60.0, 0.0]);
-    harness.input_mut().modifiers.shift = false;
+    harness.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
     let panned = harness.state().stage().orbit;
     assert_eq!((panned.yaw, panned.pitch), (turned.yaw, turned.pitch));
     assert!(panned.target.distance(turned.target) > 0.1);
@@ -113,7 +113,7 @@ fn environments_and_models_come_by_drop_and_bad_ones_change_nothing() {
     drop_file(&mut harness, &broken);
     assert_eq!(harness.state().stage().environment, EnvironmentSource::File(sky));
     assert!(harness.query_by_label_contains("The environment stays as it was").is_some());
-    click(&mut harness, "Close");
+    click(&mut harness, "Dismiss");
     assert!(harness.query_by_label_contains("stays as it was").is_none());
 
     let mesh = harness.state().stage().mesh.clone();
@@ -161,6 +161,19 @@ fn two_sides_are_compared_and_their_difference_is_told() {
     drag(&mut harness, "Divider of A and B", [40.0, 0.0]);
     let after = harness.get_by_label("Divider of A and B").rect().center().x;
     assert!((after - before - 40.0).abs() < 2.0, "{before} {after}");
+}
+
+#[test]
+fn the_selected_nodes_outputs_are_shown() {
+    let mut harness = open(Options::default());
+    assert!(harness.query_by_label("out of chips").is_none());
+    harness.state_mut().act(halfvector_editor::Action::Select(vec!["chips".into()]));
+    settle(&mut harness);
+    harness.get_by_label("out of chips");
+    // Of two selected nodes none.
+    harness.state_mut().act(halfvector_editor::Action::Select(vec!["chips".into(), "grain".into()]));
+    settle(&mut harness);
+    assert!(harness.query_by_label("out of chips").is_none());
 }
 
 #[test]
