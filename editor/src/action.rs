@@ -1,8 +1,9 @@
 //! What a person can do to the session: panes return these, and only [`crate::Session`] and the window carry them out.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use halfvector_graph::document::NodeId;
+use halfvector_graph::document::{Document, NodeId};
 use halfvector_graph::edit::Edit;
 
 /// One thing that a person does.
@@ -29,6 +30,8 @@ pub enum Action {
     Show(NodeId),
     /// Replaces the document by a new one.
     New,
+    /// Replaces the document by a new one that begins as this.
+    NewFrom(Arc<Document>),
     /// Replaces the document by that of a file.
     Open(PathBuf),
     /// Writes the document to its file; asks where when it has none.

@@ -6,8 +6,14 @@ use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 use egui_tiles::{Container, Linear, LinearDir, SimplificationOptions, TileId, Tiles, Tree, UiResponse};
 
 use crate::action::Action;
-use crate::panes::{canvas::Canvas, code::Code, inspector::Inspector, problems::Problems, viewport::Viewport};
+use crate::paint::Gpu;
+use crate::panes::{
+    accuracy::Accuracy, canvas::Canvas, code::Code, inspector::Inspector, library::LibraryPane, problems::Problems,
+    viewport::Viewport,
+};
 use crate::session::Session;
+use crate::stage::Stage;
+use crate::thumbnails::Thumbnails;
 use crate::{Options, theme};
 
 /// A part of the window.
@@ -23,6 +29,10 @@ pub enum Pane {
     Code,
     /// What is wrong.
     Problems,
+    /// Materials to begin with.
+    Library,
+    /// How exact the shader is.
+    Accuracy,
 }
 
 impl Pane {
@@ -34,6 +44,8 @@ impl Pane {
             Pane::Inspector => "Inspector",
             Pane::Code => "Code",
             Pane::Problems => "Problems",
+            Pane::Library => "Library",
+            Pane::Accuracy => "Accuracy",
         }
     }
 }
@@ -54,6 +66,9 @@ struct Panes {
     inspector: Inspector,
     code: Code,
     problems: Problems,
+    library: LibraryPane,
+    accuracy: Accuracy,
+    thumbnails: Thumbnails,
 }
 
 const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
@@ -73,12 +88,16 @@ impl Editor {
                 Err(error) => (Session::new(), error.to_string()),
             },
         };
+        let gpu = Gpu::new(!options.without_gpu);
         let panes = Panes {
             canvas: Canvas::default(),
-            viewport: Viewport::new(context),
+            viewport: Viewport::new(context, &gpu),
             inspector: Inspector,
             code: Code::new(context),
             problems: Problems,
+            library: LibraryPane::default(),
+            accuracy: Accuracy::new(context, &gpu),
+            thumbnails: Thumbnails::new(context, &gpu),
         };
         Editor { session, panes, tree: start_layout(), message }
     }
@@ -88,9 +107,17 @@ impl Editor {
         &self.session
     }
 
+    /// What the material is seen on.
+    pub fn stage(&self) -> &Stage {
+        self.panes.viewport.stage()
+    }
+
     /// Whether all that is shown is up to date: no picture and no shader is being made.
     pub fn is_idle(&self) -> bool {
-        self.panes.viewport.is_idle() && self.panes.code.is_idle()
+        self.panes.viewport.is_idle()
+            && self.panes.code.is_idle()
+            && self.panes.thumbnails.is_idle()
+            && self.panes.accuracy.is_idle()
     }
 
     /// Carries out what a person does.
@@ -124,6 +151,10 @@ impl Editor {
                 self.session = Session::new();
                 Ok(String::new())
             }
+            Action::NewFrom(document) => {
+                self.session = Session::with(document);
+                Ok(String::new())
+            }
             Action::Open(path) => {
                 self.session = Session::open(&path).map_err(|error| error.to_string())?;
                 Ok(format!("Opened {}", path.display()))
@@ -151,6 +182,7 @@ impl Editor {
             let mut behavior = Behavior { session: &self.session, panes: &mut self.panes, actions: &mut actions };
             self.tree.ui(&mut behavior, ui);
         });
+        self.panes.thumbnails.end_frame(ui.ctx());
         actions.into_iter().for_each(|action| self.act(action));
     }
 
@@ -223,7 +255,9 @@ fn start_layout() -> Tree<Pane> {
     let inspector = tiles.insert_pane(Pane::Inspector);
     let code = tiles.insert_pane(Pane::Code);
     let problems = tiles.insert_pane(Pane::Problems);
-    let below = tiles.insert_tab_tile(vec![code, problems]);
+    let library = tiles.insert_pane(Pane::Library);
+    let accuracy = tiles.insert_pane(Pane::Accuracy);
+    let below = tiles.insert_tab_tile(vec![code, problems, library, accuracy]);
     let left = split(&mut tiles, LinearDir::Vertical, [canvas, below], 0.68);
     let right = split(&mut tiles, LinearDir::Vertical, [viewport, inspector], 0.55);
     let root = split(&mut tiles, LinearDir::Horizontal, [left, right], 0.62);
@@ -247,10 +281,12 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
         let Behavior { session, panes, actions } = self;
         match pane {
             Pane::Canvas => panes.canvas.show(ui, session, actions),
-            Pane::Viewport => panes.viewport.show(ui, session, actions),
+            Pane::Viewport => panes.viewport.show(ui, session, &mut panes.thumbnails, actions),
             Pane::Inspector => panes.inspector.show(ui, session, actions),
             Pane::Code => panes.code.show(ui, session, actions),
             Pane::Problems => panes.problems.show(ui, session, actions),
+            Pane::Library => panes.library.show(ui, &mut panes.thumbnails, actions),
+            Pane::Accuracy => panes.accuracy.show(ui, session, &mut panes.viewport),
         }
         UiResponse::None
     }

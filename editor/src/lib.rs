@@ -6,14 +6,18 @@
 //! The document is the only truth. Panes read it and return [`Action`]s; nobody but [`Session`] changes it. No pane waits
 //! for a shader, a picture or a file. Shading, checking and drawing are the other crates' work.
 
+mod accuracy;
 mod action;
 mod app;
+mod environments;
 mod history;
+mod library;
 mod paint;
 mod panes;
 mod session;
 mod stage;
 mod theme;
+mod thumbnails;
 mod work;
 
 use std::path::PathBuf;
@@ -21,13 +25,15 @@ use std::path::PathBuf;
 pub use action::Action;
 pub use app::{Editor, Pane};
 pub use session::{START_MATERIAL, Session};
-pub use stage::Stage;
+pub use stage::{Lamp, LampKind, Orbit, Stage};
 
 /// What the editor opens with.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// A `*.material.json` file; the start material when absent.
     pub document: Option<PathBuf>,
+    /// Draws on the CPU, as if there were no graphics card.
+    pub without_gpu: bool,
 }
 
 /// Why there is no window.

@@ -45,8 +45,16 @@ impl Session {
         Ok(Session::of(halfvector_graph::file::load(path)?, Some(path.to_owned())))
     }
 
+    /// A session with a document that has no file.
+    pub(crate) fn with(document: Arc<Document>) -> Session {
+        Session::of_shared(document, None)
+    }
+
     fn of(document: Document, file: Option<PathBuf>) -> Session {
-        let document = Arc::new(document);
+        Session::of_shared(Arc::new(document), file)
+    }
+
+    fn of_shared(document: Arc<Document>, file: Option<PathBuf>) -> Session {
         Session {
             history: History::default(),
             revision: 0,

@@ -3,8 +3,9 @@
 use glam::{Quat, Vec3};
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::ToneMap;
+use halfvector_scene::mesh::Bounds;
 use halfvector_scene::scene::MeshSource;
-use halfvector_scene::{BuiltinMesh, Camera, EnvironmentSource, Light};
+use halfvector_scene::{BuiltinMesh, Camera, Display, EnvironmentSource, Light};
 
 /// Everything about a picture but the material.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +19,7 @@ pub struct Stage {
     /// Whether the environment is seen behind the object.
     pub shows_environment: bool,
     /// Punctual lights.
-    pub lights: Vec<Light>,
+    pub lamps: Vec<Lamp>,
     /// Brighter by factors of two.
     pub exposure_stops: f32,
     /// Into the display's range.
@@ -27,6 +28,114 @@ pub struct Stage {
     pub orbit: Orbit,
     /// The method chosen for each term of shading.
     pub methods: Methods,
+}
+
+/// A punctual light as a person sets it: colour and brightness apart, and what the other kinds need kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lamp {
+    /// Which kind it is.
+    pub kind: LampKind,
+    /// Where it is [m]; of a directional one the direction towards it.
+    pub place: Vec3,
+    /// What a spot shines at [m].
+    pub target: Vec3,
+    /// Linear Rec. 709; multiplies the brightness.
+    pub color: [f32; 3],
+    /// lx of a directional one, cd of the others.
+    pub brightness: f32,
+    /// Full and no light of a spot, from its axis [deg].
+    pub cone: [f32; 2],
+    /// Whether it shines.
+    pub is_on: bool,
+}
+
+/// Kinds of punctual lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LampKind {
+    /// Parallel rays.
+    Directional,
+    /// All directions alike.
+    Point,
+    /// A cone.
+    Spot,
+}
+
+impl LampKind {
+    /// All, in the order shown.
+    pub const ALL: [LampKind; 3] = [LampKind::Directional, LampKind::Point, LampKind::Spot];
+
+    /// For people.
+    pub fn label(self) -> &'static str {
+        match self {
+            LampKind::Directional => "Directional",
+            LampKind::Point => "Point",
+            LampKind::Spot => "Spot",
+        }
+    }
+
+    /// The unit of its brightness.
+    pub fn unit(self) -> &'static str {
+        match self {
+            LampKind::Directional => " lx",
+            LampKind::Point | LampKind::Spot => " cd",
+        }
+    }
+}
+
+impl Lamp {
+    /// A lamp of a kind, from the upper right before the object.
+    pub fn new(kind: LampKind) -> Lamp {
+        let brightness = match kind {
+            LampKind::Directional => 3.0,
+            LampKind::Point => 20.0,
+            LampKind::Spot => 40.0,
+        };
+        Lamp {
+            kind,
+            place: Vec3::new(1.5, 1.8, 2.0),
+            target: Vec3::ZERO,
+            color: [1.0; 3],
+            brightness,
+            cone: [15.0, 25.0],
+            is_on: true,
+        }
+    }
+
+    /// The light of scenes.
+    pub fn light(&self) -> Light {
+        let intensity = Vec3::from(self.color) * self.brightness;
+        match self.kind {
+            LampKind::Directional => {
+                Light::Directional { direction_to_light: self.place.normalize_or(Vec3::Y), illuminance: intensity }
+            }
+            LampKind::Point => Light::Point { position: self.place, intensity },
+            LampKind::Spot => Light::Spot {
+                position: self.place,
+                direction: (self.target - self.place).normalize_or(Vec3::NEG_Y),
+                intensity,
+                inner_angle: self.cone[0].min(self.cone[1]).to_radians(),
+                outer_angle: self.cone[1].to_radians(),
+            },
+        }
+    }
+
+    /// Where its handle is: itself, or a place in the direction of a directional one, seen from the target of the view.
+    pub fn handle(&self, orbit: &Orbit) -> Vec3 {
+        match self.kind {
+            LampKind::Directional => orbit.target + self.place.normalize_or(Vec3::Y) * (0.25 * orbit.distance),
+            LampKind::Point | LampKind::Spot => self.place,
+        }
+    }
+
+    /// Moves the handle across the view by shares of the picture's height.
+    pub fn drag(&mut self, orbit: &Orbit, right: f32, up: f32) {
+        let handle = self.handle(orbit);
+        let moved = handle + orbit.across(orbit.depth(handle), right, up);
+        self.place = match self.kind {
+            LampKind::Directional => (moved - orbit.target).normalize_or(Vec3::Y),
+            LampKind::Point | LampKind::Spot => moved,
+        };
+    }
 }
 
 /// A camera that turns about a point.
@@ -55,7 +164,7 @@ impl Default for Stage {
             environment: EnvironmentSource::Studio,
             environment_rotation: 0.0,
             shows_environment: false,
-            lights: Vec::new(),
+            lamps: Vec::new(),
             exposure_stops: 0.0,
             tone_map: ToneMap::default(),
             orbit: Orbit::of(&Camera::default()),
@@ -101,10 +210,53 @@ impl Orbit {
 
     /// Moved across the view by shares of the picture's height.
     pub fn panned(self, right: f32, up: f32) -> Orbit {
+        Orbit { target: self.target + self.across(self.distance, right, up), ..self }
+    }
+
+    /// The way across the view at a distance in front of the camera, by shares of the picture's height.
+    pub fn across(&self, depth: f32, right: f32, up: f32) -> Vec3 {
+        let [across, upward, _] = self.axes();
+        let height = 2.0 * depth * (0.5 * self.vertical_fov.to_radians()).tan();
+        (across * right + upward * up) * height
+    }
+
+    /// How far in front of the camera a point is.
+    pub fn depth(&self, point: Vec3) -> f32 {
+        (point - self.camera().position).dot(self.axes()[2])
+    }
+
+    /// Where a point is in the picture, in shares of its height from its middle, right and up; none behind the camera.
+    pub fn project(&self, point: Vec3) -> Option<[f32; 2]> {
+        let [across, upward, forward] = self.axes();
+        let offset = point - self.camera().position;
+        let depth = offset.dot(forward);
+        let height = 2.0 * depth * (0.5 * self.vertical_fov.to_radians()).tan();
+        (depth > 1e-6 * self.distance).then(|| [offset.dot(across) / height, offset.dot(upward) / height])
+    }
+
+    /// Right, up and forward, unit.
+    fn axes(&self) -> [Vec3; 3] {
         let camera = self.camera();
         let forward = (camera.target - camera.position).normalize_or(Vec3::NEG_Z);
         let across = forward.cross(Vec3::Y).normalize_or(Vec3::X);
-        let height = 2.0 * self.distance * (0.5 * self.vertical_fov.to_radians()).tan();
-        Orbit { target: self.target + (across * right + across.cross(forward) * up) * height, ..self }
+        [across, across.cross(forward), forward]
+    }
+
+    /// Looking at a box from the same side, with all of it in a square picture.
+    pub fn framing(self, bounds: Bounds) -> Orbit {
+        let framed = Orbit::of(&Camera::framing(bounds));
+        let radius = 0.5 * (bounds.max - bounds.min).length();
+        let distance = 1.05 * radius / (0.5 * framed.vertical_fov.to_radians()).sin();
+        Orbit { yaw: self.yaw, pitch: self.pitch, distance: distance.max(1e-6), ..framed }
+    }
+}
+
+impl Stage {
+    /// How its radiance is shown.
+    pub fn display(&self) -> Display {
+        if self.methods.is("encode", "report") {
+            return Display::AsIs;
+        }
+        Display::ToneMapped { exposure: self.exposure_stops.exp2(), tone_map: self.tone_map }
     }
 }

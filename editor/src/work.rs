@@ -1,7 +1,7 @@
 //! Work on other threads: one thread does one kind of job, the newest first. What is stale is dropped or told to stop.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
 use eframe::egui;
@@ -35,6 +35,21 @@ pub(crate) struct Stale {
     newest: Arc<dyn Newest>,
 }
 
+/// Where a job leaves what it has to show; the window is drawn anew for it.
+#[derive(Debug)]
+pub(crate) struct Outbox<R> {
+    sender: Sender<R>,
+    context: egui::Context,
+}
+
+impl<R> Outbox<R> {
+    /// Shows something. Nobody may be there any more to see it.
+    pub(crate) fn send(&self, result: R) {
+        let _ = self.sender.send(result);
+        self.context.request_repaint();
+    }
+}
+
 trait Newest: Send + Sync + std::fmt::Debug {
     fn newest(&self) -> u64;
 }
@@ -59,22 +74,31 @@ impl<J: Send + std::fmt::Debug + 'static, R: Send + 'static> Worker<J, R> {
         context: &egui::Context,
         mut work: impl FnMut(J, &Stale) -> Option<R> + Send + 'static,
     ) -> std::io::Result<Worker<J, R>> {
+        Worker::start_telling(name, context, move |job, stale, outbox| {
+            if let Some(result) = work(job, stale) {
+                outbox.send(result);
+            }
+        })
+    }
+
+    /// The same for work that has something to show more than once.
+    pub(crate) fn start_telling(
+        name: &str,
+        context: &egui::Context,
+        mut work: impl FnMut(J, &Stale, &Outbox<R>) + Send + 'static,
+    ) -> std::io::Result<Worker<J, R>> {
         let slot = Mutex::new(Slot { waiting: None, busy: false, closed: false });
         let shared = Arc::new(Shared { slot, wake: Condvar::new(), newest: AtomicU64::new(0) });
         let (sender, results) = channel();
-        let (theirs, context) = (shared.clone(), context.clone());
+        let theirs = shared.clone();
+        let outbox = Outbox { sender, context: context.clone() };
         std::thread::Builder::new().name(name.to_owned()).spawn(move || {
             while let Some((number, job)) = theirs.next() {
                 let stale = Stale { number, newest: theirs.clone() };
-                let result = work(job, &stale);
-                // First the result, then idle: who finds the thread idle finds the result.
-                if let Some(result) = result
-                    && sender.send(result).is_err()
-                {
-                    return;
-                }
+                // First the results, then idle: who finds the thread idle finds the results.
+                work(job, &stale, &outbox);
                 theirs.lock().busy = false;
-                context.request_repaint();
+                outbox.context.request_repaint();
             }
         })?;
         Ok(Worker { shared, results })
@@ -85,6 +109,12 @@ impl<J: Send + std::fmt::Debug + 'static, R: Send + 'static> Worker<J, R> {
         let number = self.shared.newest.fetch_add(1, Ordering::Relaxed) + 1;
         self.shared.lock().waiting = Some((number, job));
         self.shared.wake.notify_one();
+    }
+
+    /// Forgets what waits and tells what runs that it is stale.
+    pub(crate) fn cancel(&self) {
+        self.shared.newest.fetch_add(1, Ordering::Relaxed);
+        self.shared.lock().waiting = None;
     }
 
     /// The next result that is ready.

@@ -59,7 +59,7 @@ fn empty() -> Scene {
 
 fn add(scene: &mut Scene, mesh: Mesh, document: Document, world_from_object: glam::Mat4) {
     let (mesh_index, material) = (scene.meshes.len(), scene.materials.len());
-    scene.meshes.push(mesh);
+    scene.meshes.push(mesh.into());
     scene.materials.push(SceneMaterial { document, directory: "".into() });
     scene.objects.push(Object { name: String::new(), mesh: mesh_index, material, world_from_object });
 }

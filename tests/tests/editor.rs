@@ -1,6 +1,8 @@
 //! The editor without a window: clicks, drags and keys go in, documents and pictures come out.
 
+mod library;
 mod opening;
+mod viewport;
 
 use std::time::{Duration, Instant};
 

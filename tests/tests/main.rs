@@ -8,6 +8,7 @@ mod editor;
 mod golden;
 mod images;
 mod interp;
+mod live;
 mod methods;
 mod nodes;
 mod normal_tangent;

@@ -286,7 +286,7 @@ fn mirrored_textures_shade_like_their_relief() {
     for made in &made {
         let world_from_object = glam::Mat4::IDENTITY;
         scene.objects.push(Object { name: made.name.into(), mesh: scene.meshes.len(), material: 0, world_from_object });
-        scene.meshes.push(made.mesh.clone());
+        scene.meshes.push(made.mesh.clone().into());
     }
     scene.materials.push(SceneMaterial { document, directory: folder.path().into() });
     scene.load_images().expect("the map");

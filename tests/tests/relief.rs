@@ -67,7 +67,7 @@ fn plaster() -> Document {
 fn scene(mesh: Mesh, document: Document, directory: &std::path::Path, world_from_object: Mat4) -> Scene {
     let distance = 500.0;
     let mut scene = Scene {
-        meshes: vec![mesh],
+        meshes: vec![mesh.into()],
         materials: vec![SceneMaterial { document, directory: directory.into() }],
         objects: vec![Object { name: String::new(), mesh: 0, material: 0, world_from_object }],
         camera: Camera {

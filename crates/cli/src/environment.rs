@@ -1,10 +1,7 @@
 //! The environment of a scene, loaded and baked as its methods ask.
 
-use halfvector_ibl::{
-    BakeOptions, BakedEnvironment, Layout, LevelMap, LoadedEnvironment, Prefilter, Source, StoredLobe,
-    bake_with_progress,
-};
-use halfvector_scene::{EnvironmentSource, Scene};
+use halfvector_ibl::{BakeOptions, BakedEnvironment, Layout, LoadedEnvironment, Source, bake_with_progress};
+use halfvector_scene::{EnvironmentSource, Scene, bake_options, ggx_roughness};
 
 use crate::failure::Failure;
 use crate::output::{note, progress};
@@ -34,7 +31,7 @@ pub(crate) fn load(source: &EnvironmentSource) -> Result<Option<LoadedEnvironmen
 
 /// Bakes an environment for the scene.
 pub(crate) fn bake(scene: &Scene, loaded: &LoadedEnvironment) -> BakedEnvironment {
-    let options = bake_options(scene, loaded);
+    let options = bake_options(&scene.environment, &scene.methods, loaded);
     let baked = bake_with_bar(loaded, &options);
     if let Some(stored) = ggx_roughness(loaded)
         && stored.len() > 1
@@ -55,37 +52,4 @@ pub(crate) fn bake_with_bar(loaded: &LoadedEnvironment, options: &BakeOptions) -
     let baked = bake_with_progress(loaded, options, &mut |done| bar.set_position((done * 1000.0) as u64));
     bar.finish_and_clear();
     baked
-}
-
-/// The roughness of each level of an environment whose levels are GGX already.
-pub(crate) fn ggx_roughness(loaded: &LoadedEnvironment) -> Option<&[f32]> {
-    match &loaded.source {
-        Source::Levels(stored) => match &stored.lobe {
-            StoredLobe::Ggx(roughness) => Some(roughness),
-            StoredLobe::Unknown | StoredLobe::Hdre { .. } => None,
-        },
-        Source::Equirect(_) => None,
-    }
-}
-
-fn bake_options(scene: &Scene, loaded: &LoadedEnvironment) -> BakeOptions {
-    let level_map = match scene.methods.get("level_map").name {
-        "report" => LevelMap::Report,
-        "linear" => LevelMap::Linear,
-        _ => LevelMap::Geometric,
-    };
-    let prefilter = if scene.methods.is("prefilter", "hdre") { Prefilter::Hdre } else { Prefilter::Ggx };
-    let decode_report = scene.methods.is("env_decode", "report");
-    let mut options = BakeOptions { level_map, prefilter, decode_report, ..BakeOptions::default() };
-    if scene.environment == EnvironmentSource::White {
-        // The same from everywhere: a few texels say it.
-        (options.size, options.irradiance_size) = (64, 1);
-    }
-    if let (Source::Levels(stored), Some(roughness)) = (&loaded.source, ggx_roughness(loaded))
-        && roughness.len() > 1
-    {
-        // As many levels of that size are likely to be just those that the shader reads.
-        (options.size, options.levels) = (stored.levels[0].size, Some(roughness.len()));
-    }
-    options
 }

@@ -19,5 +19,5 @@ mod texture;
 mod tile;
 
 pub use error::RasterError;
-pub use picture::{RasterOptions, draw};
+pub use picture::{RasterOptions, draw, draw_while};
 pub use texture::{image as texture, sampler};

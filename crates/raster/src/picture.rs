@@ -2,7 +2,7 @@
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use halfvector_codegen::uniforms::FrameValues;
 use halfvector_codegen::{Fold, Shader};
@@ -69,6 +69,25 @@ pub fn draw<F: Float>(
     options: &RasterOptions,
     progress: impl Fn(f32) + Sync,
 ) -> Result<Picture, RasterError> {
+    let go_on = |done| {
+        progress(done);
+        true
+    };
+    let picture = draw_while::<F>(scene, environment, options, go_on)?;
+    Ok(picture.unwrap_or_else(|| Picture::clear(options.width, options.height)))
+}
+
+/// The same, given up when `go_on`, which is told the share that is done after each tile, returns false: then there is no
+/// picture.
+///
+/// # Errors
+/// As for [`draw`].
+pub fn draw_while<F: Float>(
+    scene: &Scene,
+    environment: Option<&BakedEnvironment>,
+    options: &RasterOptions,
+    go_on: impl Fn(f32) -> bool + Sync,
+) -> Result<Option<Picture>, RasterError> {
     let RasterOptions { width, height, samples_per_side: side, fold } = *options;
     let samples = |pixels: u32| u64::from(pixels) * u64::from(side);
     let sound = |pixels: u32| (1..=MAX_SAMPLES).contains(&samples(pixels));
@@ -146,12 +165,16 @@ pub fn draw<F: Float>(
     let tiles = tiles(width, height, edge);
     let bins = bins(&frame.draws, grid, edge * side);
     let done = AtomicUsize::new(0);
+    let stopped = AtomicBool::new(false);
     let parts = tiles
         .par_iter()
         .zip(&bins)
         .map_init(
             || Machines::<F>::new(&frame),
             |machines, (&pixels, bin)| {
+                if stopped.load(Ordering::Relaxed) {
+                    return Ok(None);
+                }
                 let rect = Rect {
                     x: pixels.x * side,
                     y: pixels.y * side,
@@ -165,16 +188,19 @@ pub fn draw<F: Float>(
                 })?;
                 let mut part = Picture::clear(pixels.width, pixels.height);
                 part.resolve(Tile { x: 0, y: 0, ..pixels }, side, &samples);
-                progress((done.fetch_add(1, Ordering::Relaxed) + 1) as f32 / tiles.len() as f32);
-                Ok(part)
+                if !go_on((done.fetch_add(1, Ordering::Relaxed) + 1) as f32 / tiles.len() as f32) {
+                    stopped.store(true, Ordering::Relaxed);
+                }
+                Ok(Some(part))
             },
         )
-        .collect::<Result<Vec<Picture>, RasterError>>()?;
+        .collect::<Result<Vec<Option<Picture>>, RasterError>>()?;
     let mut picture = Picture::clear(width, height);
     for (&tile, part) in tiles.iter().zip(&parts) {
+        let Some(part) = part else { return Ok(None) };
         picture.put(tile, part);
     }
-    Ok(picture)
+    Ok(Some(picture))
 }
 
 fn frame_values(scene: &Scene, environment: Option<&BakedEnvironment>, view: &View, whole: Tile) -> FrameValues {

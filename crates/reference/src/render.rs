@@ -125,7 +125,7 @@ impl<'a> Reference<'a> {
                 materials[object.material] =
                     Some(Material::new(scene, wanted, &scene.methods, &mut textures, &mut notes)?);
             }
-            let mesh = &scene.meshes[object.mesh];
+            let mesh: &Mesh = &scene.meshes[object.mesh];
             bodies.push(Body {
                 material: object.material,
                 mesh: (!is_sphere(mesh)).then_some(Cow::Borrowed(mesh)),

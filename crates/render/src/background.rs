@@ -9,6 +9,13 @@ use crate::program::{depth_state, texture_type};
 /// Bytes of the uniform struct `Background`.
 const UNIFORM_BYTES: usize = 64;
 
+/// The program that draws an environment to targets of a format.
+#[derive(Debug)]
+pub(crate) struct SkyProgram {
+    pipeline: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+}
+
 /// Draws the environment where nothing nearer is.
 #[derive(Debug)]
 pub(crate) struct Sky {
@@ -19,17 +26,9 @@ pub(crate) struct Sky {
     gamma_coded: bool,
 }
 
-impl Sky {
-    /// Makes the pass for an environment turned by (cos, sin). `gamma_coded`: the picture holds display values by the
-    /// report's gamma instead of radiance.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        target: wgpu::TextureFormat,
-        radiance: &wgpu::TextureView,
-        sampler: &wgpu::Sampler,
-        rotation: [f32; 2],
-        gamma_coded: bool,
-    ) -> Sky {
+impl SkyProgram {
+    /// Compiles it.
+    pub(crate) fn new(gpu: &Gpu, target: wgpu::TextureFormat) -> SkyProgram {
         let device = &gpu.device;
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("background"),
@@ -54,16 +53,6 @@ impl Sky {
                 ),
                 entry(1, texture_type(wgpu::TextureViewDimension::Cube)),
                 entry(2, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)),
-            ],
-        });
-        let uniforms = filled_buffer(gpu, &[0; UNIFORM_BYTES], wgpu::BufferUsages::UNIFORM);
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("background"),
-            layout: &layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: uniforms.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(radiance) },
-                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(sampler) },
             ],
         });
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -92,9 +81,34 @@ impl Sky {
             multiview_mask: None,
             cache: None,
         });
-        Sky { pipeline, group, uniforms, rotation, gamma_coded }
+        SkyProgram { pipeline, layout }
     }
 
+    /// Makes the pass for an environment turned by (cos, sin). `gamma_coded`: the picture holds display values by the
+    /// report's gamma instead of radiance.
+    pub(crate) fn sky(
+        &self,
+        gpu: &Gpu,
+        radiance: &wgpu::TextureView,
+        sampler: &wgpu::Sampler,
+        rotation: [f32; 2],
+        gamma_coded: bool,
+    ) -> Sky {
+        let uniforms = filled_buffer(gpu, &[0; UNIFORM_BYTES], wgpu::BufferUsages::UNIFORM);
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("background"),
+            layout: &self.layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: uniforms.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(radiance) },
+                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(sampler) },
+            ],
+        });
+        Sky { pipeline: self.pipeline.clone(), group, uniforms, rotation, gamma_coded }
+    }
+}
+
+impl Sky {
     /// Sets the directions of a tile; before the pass that draws it is submitted.
     pub(crate) fn set_tile(&self, gpu: &Gpu, view: &View, width: u32, height: u32, tile: Tile) {
         let numbers = view.background_numbers(width, height, tile, self.rotation, self.gamma_coded);

@@ -183,3 +183,19 @@ pub enum RenderError {
         side: u32,
     },
 }
+
+impl RenderError {
+    /// Whether it is the device that failed, not what it was given: another picture may fail as well, and what was made on
+    /// it is not to be used again.
+    pub fn is_of_device(&self) -> bool {
+        matches!(
+            self,
+            RenderError::NoAdapter { .. }
+                | RenderError::Device { .. }
+                | RenderError::Lost { .. }
+                | RenderError::OutOfMemory { .. }
+                | RenderError::Refused { .. }
+                | RenderError::NoFloatTarget { .. }
+        )
+    }
+}

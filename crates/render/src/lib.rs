@@ -5,14 +5,17 @@
 
 mod background;
 mod bake;
+mod cache;
 mod device;
 mod draws;
 mod error;
+mod kept;
 mod mesh;
 mod program;
 mod renderer;
 mod target;
 mod texture;
 
+pub use cache::{Cache, Made};
 pub use error::RenderError;
 pub use renderer::{RenderOptions, Renderer};

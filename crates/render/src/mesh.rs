@@ -25,8 +25,14 @@ impl MeshBuffers {
         Ok(MeshBuffers { attributes: HashMap::new(), indices, index_count: mesh.indices.len() as u32 })
     }
 
-    /// Uploads an attribute that a shader reads, once.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, number: usize, mesh: &Mesh, name: &str) -> Result<(), RenderError> {
+    /// The buffer of an attribute that a shader reads, uploaded once.
+    pub(crate) fn attribute(
+        &mut self,
+        gpu: &Gpu,
+        number: usize,
+        mesh: &Mesh,
+        name: &str,
+    ) -> Result<wgpu::Buffer, RenderError> {
         let (name, bytes): (_, &[u8]) = match name {
             "position" => ("position", bytemuck::cast_slice(&mesh.positions)),
             "normal" => ("normal", bytemuck::cast_slice(&mesh.normals)),
@@ -37,15 +43,12 @@ impl MeshBuffers {
                 return Err(RenderError::Attribute { name: other.to_owned() });
             }
         };
-        if !self.attributes.contains_key(name) {
-            self.attributes.insert(name, upload(gpu, number, bytes, wgpu::BufferUsages::VERTEX)?);
+        if let Some(known) = self.attributes.get(name) {
+            return Ok(known.clone());
         }
-        Ok(())
-    }
-
-    /// The buffer of an attribute that was prepared.
-    pub(crate) fn attribute(&self, name: &str) -> Option<&wgpu::Buffer> {
-        self.attributes.get(name)
+        let buffer = upload(gpu, number, bytes, wgpu::BufferUsages::VERTEX)?;
+        self.attributes.insert(name, buffer.clone());
+        Ok(buffer)
     }
 }
 

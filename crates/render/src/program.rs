@@ -48,17 +48,14 @@ impl Program {
         Program { module, groups, layout, vertex_inputs, pipelines: HashMap::new(), target }
     }
 
-    /// Makes the pipeline for a way of drawing, once.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, pass: FacePass) {
-        if !self.pipelines.contains_key(&pass) {
-            let pipeline = self.make(gpu, pass);
-            self.pipelines.insert(pass, pipeline);
+    /// The pipeline for a way of drawing, and whether it was built for this call.
+    pub(crate) fn pipeline(&mut self, gpu: &Gpu, pass: FacePass) -> (wgpu::RenderPipeline, bool) {
+        if let Some(known) = self.pipelines.get(&pass) {
+            return (known.clone(), false);
         }
-    }
-
-    /// The pipeline for a way of drawing that was prepared.
-    pub(crate) fn pipeline(&self, pass: FacePass) -> Option<&wgpu::RenderPipeline> {
-        self.pipelines.get(&pass)
+        let pipeline = self.make(gpu, pass);
+        self.pipelines.insert(pass, pipeline.clone());
+        (pipeline, true)
     }
 
     fn make(&self, gpu: &Gpu, pass: FacePass) -> wgpu::RenderPipeline {

@@ -1,5 +1,7 @@
 //! A scene becomes a picture: the whole way on one page.
 
+use std::sync::Arc;
+
 use halfvector_codegen::Fold;
 use halfvector_codegen::reflection::SamplerSource;
 use halfvector_codegen::uniforms::FrameValues;
@@ -9,13 +11,12 @@ use halfvector_ibl::{BakeOptions, BakedEnvironment, FilterJob, LoadedEnvironment
 use halfvector_scene::light::lights_by_kind;
 use halfvector_scene::{Background, Picture, Scene, View, tiles};
 
-use crate::background::Sky;
 use crate::bake::Filter;
+use crate::cache::{Cache, Lit};
 use crate::device::Gpu;
-use crate::draws::{EnvironmentTextures, prepare};
+use crate::draws::{Wanted, prepare};
 use crate::error::RenderError;
-use crate::target::{TILE_EDGE, Target};
-use crate::texture;
+use crate::target::TILE_EDGE;
 
 /// Draws scenes on one GPU.
 #[derive(Debug)]
@@ -98,6 +99,47 @@ impl Renderer {
         options: &RenderOptions,
         mut progress: impl FnMut(f32),
     ) -> Result<Picture, RenderError> {
+        let lit = environment.map(|baked| Lit { baked, keeper: None });
+        let go_on = |done| {
+            progress(done);
+            true
+        };
+        let picture = self.draw(&mut Cache::default(), scene, lit, options, go_on)?;
+        Ok(picture.unwrap_or_else(|| Picture::clear(options.width, options.height)))
+    }
+
+    /// The same with what a cache holds of earlier pictures, for pictures that follow each other: under [`Fold::Live`] other
+    /// numbers, another camera or light compile nothing. `go_on` is told the share that is done after each tile; when it
+    /// returns false the rest is left and there is no picture.
+    ///
+    /// # Errors
+    /// As for [`Renderer::render`]. After an error of the device the cache is empty.
+    pub fn render_live(
+        &self,
+        cache: &mut Cache,
+        scene: &Scene,
+        environment: Option<&Arc<BakedEnvironment>>,
+        options: &RenderOptions,
+        go_on: impl FnMut(f32) -> bool,
+    ) -> Result<Option<Picture>, RenderError> {
+        let lit = environment.map(|baked| Lit { baked, keeper: Some(baked) });
+        let drawn = self.draw(cache, scene, lit, options, go_on);
+        match &drawn {
+            Err(error) if error.is_of_device() => cache.clear(),
+            _ => cache.end(),
+        }
+        drawn
+    }
+
+    fn draw(
+        &self,
+        cache: &mut Cache,
+        scene: &Scene,
+        environment: Option<Lit<'_>>,
+        options: &RenderOptions,
+        mut go_on: impl FnMut(f32) -> bool,
+    ) -> Result<Option<Picture>, RenderError> {
+        cache.begin();
         let gpu = &self.gpu;
         let RenderOptions { width, height, samples_per_side: side, .. } = *options;
         let wrong_size = || RenderError::PictureSize { width, height, side };
@@ -119,28 +161,30 @@ impl Renderer {
             time: 0.0,
             exposure: scene.exposure.factor(),
             environment_rotation: [cos, sin],
-            environment_levels: environment.map_or(0, |baked| baked.radiance.len() as u32),
-            irradiance_sh: environment.map_or([[0.0; 3]; 9], |baked| baked.irradiance_sh),
+            environment_levels: environment.map_or(0, |lit| lit.baked.radiance.len() as u32),
+            irradiance_sh: environment.map_or([[0.0; 3]; 9], |lit| lit.baked.irradiance_sh),
             lights: lights_by_kind(&scene.lights).numbers(),
         };
         let blends = scene.materials.iter().any(|material| material.document.surface.alpha_mode == AlphaMode::Blend);
         let format = gpu.radiance_format(blends)?;
 
-        let mut textures = EnvironmentTextures::new(environment, &needs.methods);
-        let (draws, sky, target) = gpu.guarded("preparing the scene", || {
-            let draws = prepare(gpu, scene, &needs, options.fold, &view, format, &mut textures)?;
+        let (draws, sky) = gpu.guarded("preparing the scene", || {
+            let wanted = Wanted { scene, needs: &needs, fold: options.fold, view: &view, target: format, environment };
+            let draws = prepare(gpu, cache, &wanted)?;
             let sky = match scene.background {
                 Background::Environment if environment.is_some() => {
-                    let sampler = texture::sampler(gpu, &SamplerSource::LinearClamp);
+                    let sampler = cache.sampler(gpu, &SamplerSource::LinearClamp);
                     let gamma_coded = needs.methods.is("encode", "report");
-                    let radiance = textures.radiance(gpu)?;
-                    Some(Sky::new(gpu, format, &radiance, &sampler, frame.environment_rotation, gamma_coded))
+                    let radiance = cache.radiance(gpu, environment)?;
+                    let rotation = frame.environment_rotation;
+                    Some(cache.sky(gpu, format).sky(gpu, &radiance, &sampler, rotation, gamma_coded))
                 }
                 _ => None,
             };
-            let target = Target::new(gpu, format, edge.min(width) * side, edge.min(height) * side);
-            Ok((draws, sky, target))
+            cache.target(gpu, format, edge.min(width) * side, edge.min(height) * side);
+            Ok((draws, sky))
         })?;
+        let target = cache.target(gpu, format, edge.min(width) * side, edge.min(height) * side);
         let clear = match scene.background {
             Background::Color(color) => [color[0], color[1], color[2], 1.0],
             Background::Environment | Background::None => [0.0; 4],
@@ -167,8 +211,11 @@ impl Renderer {
                 target.read(gpu, encoder, columns, rows)
             })?;
             picture.resolve(tile, side, &samples);
-            progress((number + 1) as f32 / tiles.len() as f32);
+            let is_last = number + 1 == tiles.len();
+            if !go_on((number + 1) as f32 / tiles.len() as f32) && !is_last {
+                return Ok(None);
+            }
         }
-        Ok(picture)
+        Ok(Some(picture))
     }
 }

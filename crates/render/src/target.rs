@@ -8,6 +8,7 @@ use crate::program::DEPTH_FORMAT;
 pub(crate) const TILE_EDGE: u32 = 2048;
 
 /// A colour and a depth texture with the buffer that the colour is read back through.
+#[derive(Debug)]
 pub(crate) struct Target {
     color: wgpu::Texture,
     color_view: wgpu::TextureView,

@@ -26,6 +26,7 @@ mod format;
 mod lights;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{EulerRot, Mat4, Quat, Vec3};
 use halfvector_graph::method::Methods;
@@ -240,7 +241,7 @@ fn add_model(
         }
     }
     let (first_mesh, first_material) = (scene.meshes.len(), scene.materials.len());
-    scene.meshes.extend(model.meshes);
+    scene.meshes.extend(model.meshes.into_iter().map(Arc::new));
     scene.materials.extend(materials);
     scene.objects.extend(model.objects.into_iter().map(|mut part| {
         part.mesh += first_mesh;

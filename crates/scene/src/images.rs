@@ -5,6 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 use halfvector_graph::document::Document;
 use halfvector_graph::value::{ColorSpace, ImageRef, Value};
@@ -21,7 +22,7 @@ pub const MAX_FILE_BYTES: u64 = 1 << 30;
 /// Decoded pictures by the file that they came from.
 #[derive(Clone, Debug, Default)]
 pub struct ImageStore {
-    images: Vec<Image>,
+    images: Vec<Arc<Image>>,
     by_key: HashMap<(ImageKey, ColorSpace), usize>,
     notes: Vec<String>,
 }
@@ -114,7 +115,7 @@ impl ImageStore {
                 for space in spaces {
                     self.by_key.insert((want.key.clone(), space), self.images.len());
                 }
-                self.images.push(noted.image);
+                self.images.push(Arc::new(noted.image));
             }
         }
         // Models come with many textures of one kind: each note is told once.
@@ -134,11 +135,11 @@ impl ImageStore {
 
     /// The picture that a document in `directory` means.
     pub fn get(&self, directory: &Path, image: &ImageRef) -> Option<&Image> {
-        self.index(directory, image).map(|index| &self.images[index])
+        self.index(directory, image).map(|index| &*self.images[index])
     }
 
-    /// All pictures, in the order of their indices.
-    pub fn images(&self) -> &[Image] {
+    /// All pictures, in the order of their indices. The same `Arc` is the same picture.
+    pub fn images(&self) -> &[Arc<Image>] {
         &self.images
     }
 

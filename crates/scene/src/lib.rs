@@ -8,6 +8,7 @@
 //!
 //! Right-handed, +Y up, metres; colours are linear Rec. 709. Nothing is drawn here and no environment is baked.
 
+mod bake;
 pub mod camera;
 mod display;
 pub mod environment;
@@ -27,6 +28,7 @@ mod textures;
 pub mod tone_map;
 mod view;
 
+pub use bake::{bake_options, ggx_roughness};
 pub use camera::Camera;
 pub use display::Display;
 pub use environment::{Background, EnvironmentSource};

@@ -1,6 +1,7 @@
 //! The scene as plain data, and the ways to make one that need no scene file: a bare material on a mesh.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use glam::{Mat3, Mat4};
 use halfvector_graph::document::{Document, Node};
@@ -21,8 +22,8 @@ use crate::parameters::ParameterError;
 pub struct Scene {
     /// For people.
     pub name: String,
-    /// Surfaces, shared by objects.
-    pub meshes: Vec<Mesh>,
+    /// Surfaces, shared by objects. The same `Arc` is the same mesh: renderers keep what they made of it.
+    pub meshes: Vec<Arc<Mesh>>,
     /// Materials, shared by objects.
     pub materials: Vec<SceneMaterial>,
     /// What is drawn.
@@ -204,7 +205,7 @@ impl Scene {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let mut scene = Scene {
             name,
-            meshes: model.meshes,
+            meshes: shared(model.meshes),
             materials: model.materials,
             objects: model.objects,
             lights: model.lights,
@@ -229,7 +230,7 @@ impl Scene {
             MeshSource::File(path) => {
                 let model = gltf::load(path)?;
                 self.notes.extend(model.notes);
-                self.meshes = model.meshes;
+                self.meshes = shared(model.meshes);
                 self.objects = model.objects;
                 for object in &mut self.objects {
                     object.material = 0;
@@ -258,7 +259,7 @@ impl Scene {
                 material,
                 world_from_object,
             });
-            self.meshes.push(part.mesh);
+            self.meshes.push(Arc::new(part.mesh));
         }
     }
 
@@ -272,7 +273,7 @@ impl Scene {
 
     /// The smallest box around all objects in world space; `None` when there is nothing.
     pub fn bounds(&self) -> Option<Bounds> {
-        let boxes = self.meshes.iter().map(Mesh::bounds).collect::<Vec<_>>();
+        let boxes = self.meshes.iter().map(|mesh| mesh.bounds()).collect::<Vec<_>>();
         let in_world = self.objects.iter().filter_map(|object| {
             let bounds = boxes.get(object.mesh).copied().flatten()?;
             Some(bounds.transformed(&object.world_from_object))
@@ -284,6 +285,10 @@ impl Scene {
     pub fn framing_camera(&self) -> Camera {
         self.bounds().map_or_else(Camera::default, Camera::framing)
     }
+}
+
+fn shared(meshes: Vec<Mesh>) -> Vec<Arc<Mesh>> {
+    meshes.into_iter().map(Arc::new).collect()
 }
 
 /// What the parts of a shape that show no material are made of: grey, rather rough.

@@ -11,7 +11,7 @@ use halfvector_ibl::{
 use halfvector_render::Renderer;
 use halfvector_scene::{Display, EnvironmentSource, Picture};
 
-use crate::environment::{bake_with_bar, ggx_roughness, load};
+use crate::environment::{bake_with_bar, load};
 use crate::failure::Failure;
 use crate::harmonics_file;
 use crate::output::{check_place, note, progress, write_file};

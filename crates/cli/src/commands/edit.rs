@@ -23,7 +23,7 @@ pub(crate) fn run(args: &EditArgs) -> Result<u8, Failure> {
     if let Some(path) = &args.document {
         crate::input::material(path)?;
     }
-    match halfvector_editor::run(Options { document: args.document.clone() }) {
+    match halfvector_editor::run(Options { document: args.document.clone(), ..Options::default() }) {
         Ok(()) => Ok(0),
         Err(error) => Err(Failure::input("the editor did not open")
             .because(error)

@@ -1,0 +1,96 @@
+//! What the editor waits for: a picture after a number was dragged, after the camera moved, and after an edit that makes
+//! another shader (code generator, program, pipeline and picture), of a material of 30 nodes; and all of it without what is
+//! kept from picture to picture. Without a GPU, not even a software one, it says so and measures nothing.
+
+use std::sync::Arc;
+
+use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
+use halfvector_codegen::Fold;
+use halfvector_graph::document::Document;
+use halfvector_ibl::{BakeOptions, bake};
+use halfvector_render::{Cache, RenderOptions, Renderer};
+use halfvector_scene::{BuiltinMesh, MeshSource, Scene};
+
+/// A chain of noises that weigh mixes; `scale` is a number of the last one, `edit` swaps one of its nodes.
+fn thirty_nodes(scale: f32, edit: bool) -> Document {
+    let link = |from: &str, to: &str| format!(r#"{{"from": "{from}", "to": "{to}"}}"#);
+    let mut nodes = vec![
+        r#""start": {"node": "input/color"}, "surface": {"node": "surface/surface"}"#.to_owned(),
+        format!(r#""rough": {{"node": "math/{}", "values": {{"b": 0.4}}}}"#, if edit { "max" } else { "multiply" }),
+    ];
+    let mut links = vec![link("noise0.out", "rough.a"), link("rough.out", "surface.perceptual_roughness")];
+    let mut from = "start.out".to_owned();
+    for step in 0..9 {
+        let frequency = if step == 8 { scale } else { step as f32 + 2.0 };
+        nodes.push(format!(
+            r#""noise{step}": {{"node": "procedural/value_noise_3d", "values": {{"scale": {frequency}}}}},
+               "tint{step}": {{"node": "math/multiply", "values": {{"b": [0.9, 0.8, 0.7]}}}},
+               "mix{step}": {{"node": "math/mix"}}"#
+        ));
+        links.push(link(&from, &format!("tint{step}.a")));
+        links.push(link(&from, &format!("mix{step}.a")));
+        links.push(link(&format!("tint{step}.out"), &format!("mix{step}.b")));
+        links.push(link(&format!("noise{step}.out"), &format!("mix{step}.t")));
+        from = format!("mix{step}.out");
+    }
+    links.push(link(&from, "surface.base_color"));
+    let (nodes, links) = (nodes.join(","), links.join(","));
+    let json = format!(r#"{{"halfvector": 1, "name": "Thirty nodes", "nodes": {{{nodes}}}, "links": [{links}]}}"#);
+    halfvector_graph::file::from_json(&json).expect("a sound document")
+}
+
+fn picture(criterion: &mut Criterion) {
+    let gpu = match Renderer::new() {
+        Ok(gpu) => gpu,
+        Err(error) => return println!("skipped: {error}"),
+    };
+    println!("on {}", gpu.adapter());
+    let light = Arc::new(bake(&halfvector_ibl::studio(), &BakeOptions { size: 64, ..BakeOptions::default() }));
+    let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
+    let mut scene = Scene::from_material(thirty_nodes(10.0, false), "".as_ref(), &sphere).expect("a scene");
+    let options =
+        RenderOptions { width: 256, height: 256, samples_per_side: 1, fold: Fold::Live, ..Default::default() };
+    let mut cache = Cache::default();
+    let mut group = criterion.benchmark_group("picture");
+    group.sample_size(20);
+    let draw = |cache: &mut Cache, scene: &Scene| {
+        gpu.render_live(cache, scene, Some(&light), &options, |_| true).expect("a picture")
+    };
+    draw(&mut cache, &scene);
+    let mut count = 0_u32;
+    group.bench_function("camera", |bencher| {
+        bencher.iter(|| {
+            count += 1;
+            scene.camera.position.x = 0.001 * count as f32;
+            draw(&mut cache, &scene)
+        });
+    });
+    group.bench_function("number", |bencher| {
+        bencher.iter(|| {
+            count += 1;
+            scene.materials[0].document = thirty_nodes(10.0 + 0.001 * count as f32, false);
+            draw(&mut cache, &scene)
+        });
+    });
+    let edited = thirty_nodes(10.0, true);
+    group.bench_function("edit", |bencher| {
+        // The program of the edit is new to a cache that knows only what was there before.
+        let before = || {
+            let mut cache = Cache::default();
+            scene.materials[0].document = thirty_nodes(10.0, false);
+            draw(&mut cache, &scene);
+            let mut after = scene.clone();
+            after.materials[0].document = edited.clone();
+            (cache, after)
+        };
+        let edit = |(mut cache, after): (Cache, Scene)| draw(&mut cache, &after);
+        bencher.iter_batched(before, edit, BatchSize::PerIteration);
+    });
+    group.bench_function("nothing kept", |bencher| {
+        bencher.iter(|| gpu.render(&scene, Some(&light), &options, |_| {}).expect("a picture"));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, picture);
+criterion_main!(benches);

@@ -1,0 +1,186 @@
+//! The picture: turning it, its lights, what is dropped on it, two sides compared, and no graphics card.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use eframe::egui;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use halfvector_editor::{Editor, Options};
+use halfvector_scene::{EnvironmentSource, MeshSource};
+
+use super::settle;
+
+/// A window small enough that its pictures cost little.
+fn open(options: Options) -> Harness<'static, Editor> {
+    let mut harness =
+        Harness::builder().with_size([1000.0, 620.0]).build_eframe(|context| Editor::new(&context.egui_ctx, options));
+    settle(&mut harness);
+    harness
+}
+
+/// Takes something with the pointer, moves it by `by` points and lets go.
+fn drag(harness: &mut Harness<'_, Editor>, label: &str, by: [f32; 2]) {
+    let from = harness.get_by_label(label).rect().center();
+    let to = from + egui::vec2(by[0], by[1]);
+    harness.hover_at(from);
+    harness.step();
+    harness.drag_at(from);
+    harness.step();
+    harness.hover_at(from.lerp(to, 0.5));
+    harness.step();
+    harness.hover_at(to);
+    harness.step();
+    harness.drop_at(to);
+    harness.step();
+}
+
+fn click(harness: &mut Harness<'_, Editor>, label: &str) {
+    harness.get_by_label(label).click();
+    harness.step();
+    harness.step();
+}
+
+/// A file as a window system hands it over.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+fn drop_file(harness: &mut Harness<'_, Editor>, path: &Path) {
+    harness.input_mut().dropped_files.push(Arc::new(Dropped(path.to_owned())));
+    harness.step();
+    settle(harness);
+}
+
+const PICTURE: &str = "Picture of the material";
+
+#[test]
+fn a_drag_turns_the_view_and_frame_brings_it_back() {
+    let mut harness = open(Options::default());
+    let before = harness.state().stage().orbit;
+    drag(&mut harness, PICTURE, [60.0, 20.0]);
+    let turned = harness.state().stage().orbit;
+    assert!(turned.yaw < before.yaw - 0.1 && turned.pitch > before.pitch + 0.05, "{turned:?}");
+    assert_eq!((turned.target, turned.distance), (before.target, before.distance));
+    harness.event(egui::Event::ModifiersChanged(egui::Modifiers::SHIFT));
+    drag(&mut harness, PICTURE, [60.0, 0.0]);
+    harness.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
+    let panned = harness.state().stage().orbit;
+    assert_eq!((panned.yaw, panned.pitch), (turned.yaw, turned.pitch));
+    assert!(panned.target.distance(turned.target) > 0.1);
+    click(&mut harness, "Frame");
+    assert_eq!(harness.state().stage().orbit, before);
+    // No view state is a change of the document.
+    assert!(!harness.state().session().is_unsaved());
+}
+
+#[test]
+fn a_light_is_added_and_dragged() {
+    let mut harness = open(Options::default());
+    click(&mut harness, "Lights");
+    click(&mut harness, "Add point");
+    let placed = harness.state().stage().lamps[0];
+    harness.key_press(egui::Key::Escape);
+    harness.step();
+    drag(&mut harness, "Point light 1", [-50.0, 30.0]);
+    let lamps = &harness.state().stage().lamps;
+    assert_eq!(lamps.len(), 1);
+    assert!(lamps[0].place.x < placed.place.x - 0.1 && lamps[0].place.y < placed.place.y - 0.1, "{lamps:?}");
+    settle(&mut harness);
+}
+
+#[test]
+fn environments_and_models_come_by_drop_and_bad_ones_change_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open(Options::default());
+    let sky = folder.path().join("sky.hdr");
+    let pixels: Vec<u8> = (0..8u8).flat_map(|i| [90 + i, 100, 120, 128]).collect();
+    std::fs::write(&sky, [b"#?RADIANCE\n\n-Y 2 +X 4\n".as_slice(), &pixels].concat()).expect("written");
+    drop_file(&mut harness, &sky);
+    assert_eq!(harness.state().stage().environment, EnvironmentSource::File(sky.clone()));
+
+    let broken = folder.path().join("broken.hdr");
+    std::fs::write(&broken, "no picture").expect("written");
+    drop_file(&mut harness, &broken);
+    assert_eq!(harness.state().stage().environment, EnvironmentSource::File(sky));
+    assert!(harness.query_by_label_contains("The environment stays as it was").is_some());
+    click(&mut harness, "Dismiss");
+    assert!(harness.query_by_label_contains("stays as it was").is_none());
+
+    let mesh = harness.state().stage().mesh.clone();
+    let broken = folder.path().join("broken.glb");
+    std::fs::write(&broken, "no model").expect("written");
+    drop_file(&mut harness, &broken);
+    assert_eq!(harness.state().stage().mesh, mesh);
+    assert!(harness.query_by_label_contains("The model stays as it was").is_some());
+
+    let triangle = folder.path().join("triangle.gltf");
+    std::fs::write(&triangle, TRIANGLE).expect("written");
+    drop_file(&mut harness, &triangle);
+    assert_eq!(harness.state().stage().mesh, MeshSource::File(triangle));
+    // It stands far off and is brought into view.
+    assert!(harness.state().stage().orbit.target.x > 90.0, "{:?}", harness.state().stage().orbit);
+}
+
+/// A triangle at x = 100: three positions of 32-bit floats as a data URI.
+const TRIANGLE: &str = r#"{
+  "asset": {"version": "2.0"},
+  "scene": 0,
+  "scenes": [{"nodes": [0]}],
+  "nodes": [{"mesh": 0, "translation": [100, 0, 0]}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}],
+  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]
+}"#;
+
+#[test]
+fn two_sides_are_compared_and_their_difference_is_told() {
+    let mut harness = open(Options::default());
+    click(&mut harness, "Compare");
+    click(&mut harness, "Difference");
+    settle(&mut harness);
+    // The same picture twice.
+    assert!(harness.query_by_label_contains("FLIP mean 0.0000").is_some(), "no difference is told");
+    click(&mut harness, "Split");
+    let boxes = harness.get_all_by_label("Own methods").collect::<Vec<_>>();
+    boxes[1].click();
+    harness.step();
+    harness.key_press(egui::Key::Escape);
+    settle(&mut harness);
+    let before = harness.get_by_label("Divider of A and B").rect().center().x;
+    drag(&mut harness, "Divider of A and B", [40.0, 0.0]);
+    let after = harness.get_by_label("Divider of A and B").rect().center().x;
+    assert!((after - before - 40.0).abs() < 2.0, "{before} {after}");
+}
+
+#[test]
+fn the_selected_nodes_outputs_are_shown() {
+    let mut harness = open(Options::default());
+    assert!(harness.query_by_label("out of chips").is_none());
+    harness.state_mut().act(halfvector_editor::Action::Select(vec!["chips".into()]));
+    settle(&mut harness);
+    harness.get_by_label("out of chips");
+    // Of two selected nodes none.
+    harness.state_mut().act(halfvector_editor::Action::Select(vec!["chips".into(), "grain".into()]));
+    settle(&mut harness);
+    assert!(harness.query_by_label("out of chips").is_none());
+}
+
+#[test]
+fn without_a_graphics_card_the_cpu_draws_and_says_so() {
+    let mut harness = open(Options { without_gpu: true, ..Options::default() });
+    assert!(harness.query_by_label_contains("Drawn on the CPU").is_some());
+    // Asked again, it is opened where there is one; either way there is a picture and no end.
+    click(&mut harness, "Try the GPU again");
+    settle(&mut harness);
+}
