@@ -1,6 +1,6 @@
 //! The Halfvector editor: a material as a node graph, its picture, its shader and its problems in one window.
 //!
-//! Reading order: `action` (what a person can do), `session` (the document, its history and selection), `stage` (what the
+//! Reading order: `action` (what a person can do), `session` (the document, its history and selection), `files` (what stands on disk), `stage` (what the
 //! material is seen on), `work` and `paint` (what runs on other threads), `app` (the window), `panes` (its parts).
 //!
 //! The document is the only truth. Panes read it and return [`Action`]s; nobody but [`Session`] changes it. No pane waits
@@ -8,6 +8,7 @@
 
 mod action;
 mod app;
+mod files;
 mod history;
 mod paint;
 mod panes;
@@ -18,8 +19,10 @@ mod work;
 
 use std::path::PathBuf;
 
-pub use action::Action;
+pub use action::{Action, Choose};
 pub use app::{Editor, Pane};
+pub use eframe::egui;
+pub use files::Folders;
 pub use session::{START_MATERIAL, Session};
 pub use stage::Stage;
 
@@ -28,6 +31,8 @@ pub use stage::Stage;
 pub struct Options {
     /// A `*.material.json` file; the start material when absent.
     pub document: Option<PathBuf>,
+    /// Where settings and unsaved work are kept; nothing is without.
+    pub folders: Folders,
 }
 
 /// Why there is no window.

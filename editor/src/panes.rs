@@ -2,6 +2,7 @@
 
 pub(crate) mod canvas;
 pub(crate) mod code;
+pub(crate) mod cost;
 pub(crate) mod inspector;
 pub(crate) mod problems;
 pub(crate) mod viewport;

@@ -65,6 +65,11 @@ impl Viewport {
         }
     }
 
+    /// What the material is seen on.
+    pub(crate) fn stage(&self) -> &Stage {
+        &self.stage
+    }
+
     /// Whether no picture is being made.
     pub(crate) fn is_idle(&self) -> bool {
         self.painter.as_ref().is_none_or(|painter| !painter.is_busy())

@@ -19,7 +19,7 @@ fn the_start_material_is_shown() {
 
 #[test]
 fn a_file_that_is_not_there_is_told() {
-    let mut harness = open(Options { document: Some("no/such.material.json".into()) });
+    let mut harness = open(Options { document: Some("no/such.material.json".into()), ..Options::default() });
     settle(&mut harness);
     assert!(harness.query_by_label_contains("no/such.material.json").is_some());
 }
