@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use halfvector_graph::document::{Document, NodeId};
+use halfvector_graph::document::{Document, NodeId, SocketRef};
 use halfvector_graph::edit::Edit;
 
 /// One thing that a person does.
@@ -28,16 +28,33 @@ pub enum Action {
     Select(Vec<NodeId>),
     /// Selects a node and brings it into view.
     Show(NodeId),
-    /// Replaces the document by a new one.
+    /// Replaces the document by a new one, after asking when it is not saved.
     New,
-    /// Replaces the document by a new one that begins as this.
+    /// Replaces the document by a new one that begins as this, after asking when it is not saved.
     NewFrom(Arc<Document>),
-    /// Replaces the document by that of a file.
+    /// Replaces the document by that of a file, after asking when it is not saved.
     Open(PathBuf),
     /// Writes the document to its file; asks where when it has none.
     Save,
     /// Writes the document to this file, which becomes its own.
     SaveAs(PathBuf),
+    /// Opens a file dialog.
+    Choose(Choose),
+    /// Tells something in the status line.
+    Say(String),
+}
+
+/// What a file dialog is opened for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Choose {
+    /// A material to open.
+    Open,
+    /// A file to write the document to.
+    SaveAs,
+    /// A picture for an input.
+    Image(SocketRef),
+    /// A folder to write the exported shader to.
+    ExportFolder,
 }
 
 impl Action {

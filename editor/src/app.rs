@@ -1,15 +1,27 @@
-//! The window: its parts side by side, the menu, the keys, and who carries out what a person does.
+//! The window: its parts side by side, and who carries out what a person does there.
+//!
+//! `keys` and `menu` give the commands, `layout` places the parts, `files`, `chooser` and `questions` see to it that nothing is
+//! lost, `status` tells what was done.
 
-use std::path::PathBuf;
+mod chooser;
+mod files;
+mod keys;
+mod layout;
+mod menu;
+mod questions;
+mod sheet;
+mod status;
 
-use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
-use egui_tiles::{Container, Linear, LinearDir, SimplificationOptions, TileId, Tiles, Tree, UiResponse};
+use eframe::egui;
+use egui_tiles::{SimplificationOptions, TileId, Tiles, Tree, UiResponse};
 
 use crate::action::Action;
+use crate::app::files::{Files, Next};
+use crate::app::status::Messages;
 use crate::paint::Gpu;
 use crate::panes::{
-    accuracy::Accuracy, canvas::Canvas, code::Code, inspector::Inspector, library::LibraryPane, problems::Problems,
-    viewport::Viewport,
+    accuracy::Accuracy, canvas::Canvas, code::Code, cost::Cost, inspector::Inspector, library::LibraryPane,
+    problems::Problems, viewport::Viewport,
 };
 use crate::session::Session;
 use crate::stage::Stage;
@@ -33,9 +45,23 @@ pub enum Pane {
     Library,
     /// How exact the shader is.
     Accuracy,
+    /// What each node costs.
+    Cost,
 }
 
 impl Pane {
+    /// All, in the order of the menu.
+    pub const ALL: [Pane; 8] = [
+        Pane::Canvas,
+        Pane::Viewport,
+        Pane::Inspector,
+        Pane::Code,
+        Pane::Problems,
+        Pane::Library,
+        Pane::Cost,
+        Pane::Accuracy,
+    ];
+
     /// The title of its tab.
     pub fn title(self) -> &'static str {
         match self {
@@ -46,17 +72,19 @@ impl Pane {
             Pane::Problems => "Problems",
             Pane::Library => "Library",
             Pane::Accuracy => "Accuracy",
+            Pane::Cost => "Cost",
         }
     }
 }
 
 /// The editor: one window with one material.
 pub struct Editor {
+    context: egui::Context,
     session: Session,
     panes: Panes,
     tree: Tree<Pane>,
-    /// What the last action had to say, in the status line.
-    message: String,
+    files: Files,
+    messages: Messages,
 }
 
 /// The state of the parts.
@@ -69,37 +97,32 @@ struct Panes {
     library: LibraryPane,
     accuracy: Accuracy,
     thumbnails: Thumbnails,
+    cost: Cost,
 }
-
-const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
-const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
-const REDO_TOO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Y);
-const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
-const NEW: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::N);
 
 impl Editor {
     /// An editor that draws itself anew through this context whenever something is ready.
     pub fn new(context: &egui::Context, options: Options) -> Editor {
         theme::install(context);
-        let (session, message) = match options.document {
-            None => (Session::new(), String::new()),
-            Some(path) => match Session::open(&path) {
-                Ok(session) => (session, String::new()),
-                Err(error) => (Session::new(), error.to_string()),
-            },
-        };
         let gpu = Gpu::new(!options.without_gpu);
+        let (files, session, troubles) = Files::start(context, options);
+        context.set_theme(files.settings.theme);
+        context.set_zoom_factor(files.settings.scale);
+        let mut messages = Messages::default();
+        troubles.into_iter().for_each(|trouble| messages.fail(trouble));
         let panes = Panes {
             canvas: Canvas::default(),
             viewport: Viewport::new(context, &gpu),
-            inspector: Inspector,
+            inspector: Inspector::new(context),
             code: Code::new(context),
-            problems: Problems,
+            problems: Problems::new(context),
+            cost: Cost::new(context),
             library: LibraryPane::default(),
             accuracy: Accuracy::new(context, &gpu),
             thumbnails: Thumbnails::new(context, &gpu),
         };
-        Editor { session, panes, tree: start_layout(), message }
+        let tree = layout::restored(files.settings.layout.clone());
+        Editor { context: context.clone(), session, panes, tree, files, messages }
     }
 
     /// The open material.
@@ -112,110 +135,81 @@ impl Editor {
         self.panes.viewport.stage()
     }
 
-    /// Whether all that is shown is up to date: no picture and no shader is being made.
+    /// Whether all that is shown is up to date: no picture and no shader is being made, and no file read or written.
     pub fn is_idle(&self) -> bool {
-        self.panes.viewport.is_idle()
+        self.files.is_idle()
+            && self.panes.viewport.is_idle()
             && self.panes.code.is_idle()
+            && self.panes.problems.is_idle()
+            && self.panes.cost.is_idle()
+            && self.panes.inspector.is_idle()
             && self.panes.thumbnails.is_idle()
             && self.panes.accuracy.is_idle()
     }
 
     /// Carries out what a person does.
     pub fn act(&mut self, action: Action) {
-        self.message = match self.try_act(action) {
-            Ok(message) => message,
-            Err(why) => why,
-        };
+        match self.try_act(action) {
+            Ok(message) => self.messages.tell(message),
+            Err(why) => self.messages.fail(why),
+        }
     }
 
     fn try_act(&mut self, action: Action) -> Result<String, String> {
         let said = |verb: &str, step: Option<String>| step.map_or_else(String::new, |step| format!("{verb}: {step}"));
         match action {
-            Action::Edit { name, edit, merge } => self.session.edit(name, &edit, merge).map(|()| String::new()),
-            Action::EndMerge => {
-                self.session.end_merge();
-                Ok(String::new())
-            }
-            Action::Undo => Ok(said("Undone", self.session.undo()?)),
-            Action::Redo => Ok(said("Done again", self.session.redo()?)),
-            Action::Select(nodes) => {
-                self.session.select(nodes);
-                Ok(String::new())
-            }
+            Action::Edit { name, edit, merge } => self.session.edit(name, &edit, merge)?,
+            Action::EndMerge => self.session.end_merge(),
+            Action::Undo => return Ok(said("Undone", self.session.undo()?)),
+            Action::Redo => return Ok(said("Done again", self.session.redo()?)),
+            Action::Select(nodes) => self.session.select(nodes),
             Action::Show(node) => {
                 self.session.select([node.clone()]);
                 self.panes.canvas.show_node(node);
-                Ok(String::new())
+                layout::show(&mut self.tree, Pane::Canvas);
             }
-            Action::New => {
-                self.session = Session::new();
-                Ok(String::new())
-            }
-            Action::NewFrom(document) => {
-                self.session = Session::with(document);
-                Ok(String::new())
-            }
-            Action::Open(path) => {
-                self.session = Session::open(&path).map_err(|error| error.to_string())?;
-                Ok(format!("Opened {}", path.display()))
-            }
-            Action::Save => match self.session.file() {
-                Some(path) => self.save(path.to_owned()),
-                None => Err("This material has no file yet".to_owned()),
-            },
-            Action::SaveAs(path) => self.save(path),
+            Action::New => self.ask(Next::New),
+            Action::NewFrom(document) => self.ask(Next::NewFrom(document)),
+            Action::Open(path) => self.ask(Next::Open(path)),
+            Action::Save => self.save(false),
+            Action::SaveAs(path) => self.save_as(path, false),
+            Action::Choose(purpose) => self.choose(purpose),
+            Action::Say(text) => return Ok(text),
         }
-    }
-
-    fn save(&mut self, path: PathBuf) -> Result<String, String> {
-        self.session.save(path.clone()).map_err(|error| error.to_string())?;
-        Ok(format!("Saved {}", path.display()))
+        Ok(String::new())
     }
 
     /// Draws the window into a `Ui` that fills it.
     pub fn show(&mut self, ui: &mut egui::Ui) {
+        self.hear();
+        self.panes.problems.hear(&self.session);
+        let heat = self.panes.cost.hear(&self.session, self.panes.viewport.stage());
+        self.session.set_heat(heat);
+        self.guard_close();
+        self.take_dropped();
         let mut actions = Vec::new();
-        shortcuts(ui.ctx(), &mut actions);
+        if self.files.question.is_none() && self.files.chooser.is_none() {
+            let pressed = keys::pressed(ui.ctx());
+            pressed.into_iter().for_each(|command| self.command(command, &mut actions));
+        }
         egui::Panel::top("menu").show(ui, |ui| self.menu(ui, &mut actions));
-        egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
+        egui::Panel::bottom("status").show(ui, |ui| self.messages.show(ui, &self.session));
+        self.show_strips(ui);
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let mut behavior = Behavior { session: &self.session, panes: &mut self.panes, actions: &mut actions };
             self.tree.ui(&mut behavior, ui);
         });
         self.panes.thumbnails.end_frame(ui.ctx());
         actions.into_iter().for_each(|action| self.act(action));
-    }
-
-    fn menu(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
-        egui::MenuBar::new().ui(ui, |ui| {
-            ui.menu_button("File", |ui| {
-                if ui.button("New").clicked() {
-                    actions.push(Action::New);
-                }
-                if ui.button("Save").clicked() {
-                    actions.push(Action::Save);
-                }
-            });
-            ui.menu_button("Edit", |ui| {
-                let [undo, redo] = self.session.steps();
-                for (verb, step, action) in [("Undo", undo, Action::Undo), ("Redo", redo, Action::Redo)] {
-                    let text = step.map_or_else(|| verb.to_owned(), |step| format!("{verb} {step}"));
-                    if ui.add_enabled(step.is_some(), egui::Button::new(text)).clicked() {
-                        actions.push(action);
-                    }
-                }
-            });
-        });
-    }
-
-    fn status(&self, ui: &mut egui::Ui) {
-        ui.horizontal(|ui| {
-            let mark = if self.session.is_unsaved() { "● " } else { "" };
-            let name = &self.session.document().name;
-            ui.label(format!("{mark}{name}"));
-            ui.separator();
-            ui.label(&self.message);
-        });
+        if ui.input(|input| input.pointer.any_released()) {
+            // Whatever was dragged is done.
+            self.session.end_merge();
+        }
+        self.show_chooser();
+        self.show_question();
+        self.keep_soon();
+        self.remember_soon(false);
+        self.set_title();
     }
 }
 
@@ -225,48 +219,10 @@ impl eframe::App for Editor {
     }
 }
 
-/// The keys that mean the same wherever the focus is, but where text is written.
-fn shortcuts(context: &egui::Context, actions: &mut Vec<Action>) {
-    let writes = context.egui_wants_keyboard_input();
-    context.input_mut(|input| {
-        if input.consume_shortcut(&SAVE) {
-            actions.push(Action::Save);
-        }
-        if input.consume_shortcut(&NEW) {
-            actions.push(Action::New);
-        }
-        if !writes {
-            // The longer one first: the shorter one would take it.
-            if input.consume_shortcut(&REDO) || input.consume_shortcut(&REDO_TOO) {
-                actions.push(Action::Redo);
-            }
-            if input.consume_shortcut(&UNDO) {
-                actions.push(Action::Undo);
-            }
-        }
-    });
-}
-
-/// The graph large, the picture and the inspector beside it, the rest below.
-fn start_layout() -> Tree<Pane> {
-    let mut tiles = Tiles::default();
-    let canvas = tiles.insert_pane(Pane::Canvas);
-    let viewport = tiles.insert_pane(Pane::Viewport);
-    let inspector = tiles.insert_pane(Pane::Inspector);
-    let code = tiles.insert_pane(Pane::Code);
-    let problems = tiles.insert_pane(Pane::Problems);
-    let library = tiles.insert_pane(Pane::Library);
-    let accuracy = tiles.insert_pane(Pane::Accuracy);
-    let below = tiles.insert_tab_tile(vec![code, problems, library, accuracy]);
-    let left = split(&mut tiles, LinearDir::Vertical, [canvas, below], 0.68);
-    let right = split(&mut tiles, LinearDir::Vertical, [viewport, inspector], 0.55);
-    let root = split(&mut tiles, LinearDir::Horizontal, [left, right], 0.62);
-    Tree::new("panes", root, tiles)
-}
-
-fn split(tiles: &mut Tiles<Pane>, direction: LinearDir, children: [TileId; 2], first: f32) -> TileId {
-    let linear = Linear::new_binary(direction, children, first);
-    tiles.insert_container(Container::Linear(linear))
+impl Drop for Editor {
+    fn drop(&mut self) {
+        self.remember_soon(true);
+    }
 }
 
 /// Draws the parts for the tiles.
@@ -283,16 +239,28 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
             Pane::Canvas => panes.canvas.show(ui, session, actions),
             Pane::Viewport => panes.viewport.show(ui, session, &mut panes.thumbnails, actions),
             Pane::Inspector => panes.inspector.show(ui, session, actions),
-            Pane::Code => panes.code.show(ui, session, actions),
+            Pane::Code => panes.code.show(ui, session, panes.viewport.stage(), actions),
             Pane::Problems => panes.problems.show(ui, session, actions),
             Pane::Library => panes.library.show(ui, &mut panes.thumbnails, actions),
             Pane::Accuracy => panes.accuracy.show(ui, session, &mut panes.viewport),
+            Pane::Cost => panes.cost.show(ui, session, actions),
         }
         UiResponse::None
     }
 
     fn tab_title_for_pane(&mut self, pane: &Pane) -> egui::WidgetText {
-        pane.title().into()
+        let count = if *pane == Pane::Problems { self.panes.problems.count(self.session) } else { 0 };
+        if count > 0 { format!("{} ({count})", pane.title()).into() } else { pane.title().into() }
+    }
+
+    fn is_tab_closable(&self, _tiles: &Tiles<Pane>, _tile: TileId) -> bool {
+        true
+    }
+
+    /// A closed part is put off, not removed: the menu puts it on again where it was.
+    fn on_tab_close(&mut self, tiles: &mut Tiles<Pane>, tile: TileId) -> bool {
+        tiles.set_visible(tile, false);
+        false
     }
 
     fn simplification_options(&self) -> SimplificationOptions {

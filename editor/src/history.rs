@@ -2,6 +2,7 @@
 
 use halfvector_graph::document::Document;
 use halfvector_graph::edit::{Edit, EditError, apply};
+use halfvector_graph::value::Value;
 
 /// What was done, and how to take it back.
 #[derive(Clone, Debug, Default)]
@@ -58,6 +59,13 @@ impl History {
         step(&mut self.undone, &mut self.done, document)
     }
 
+    /// Changes values in all that may come back by undo or redo.
+    pub(crate) fn for_each_value(&mut self, change: &mut dyn FnMut(&mut Value)) {
+        for step in self.done.iter_mut().chain(&mut self.undone) {
+            values_of(&mut step.inverse, change);
+        }
+    }
+
     /// The name of the step that undo would take back.
     pub(crate) fn undo_name(&self) -> Option<&str> {
         self.done.last().map(|step| step.name.as_str())
@@ -76,12 +84,29 @@ fn step(from: &mut Vec<Step>, to: &mut Vec<Step>, document: &mut Document) -> Re
     Ok(Some(name))
 }
 
-/// The inverse of two edits, the later one's first. Of values set again and again only the first inverse is kept, so that a
+/// The inverse of two edits, the later one's first. Of what is set again and again only the first inverse is kept, so that a
 /// long drag stays small.
 fn joined(later: Edit, earlier: Edit) -> Edit {
-    match (&later, &earlier) {
-        (Edit::SetValue { socket: a, .. }, Edit::SetValue { socket: b, .. }) if a == b => earlier,
-        (Edit::MoveNode { id: a, .. }, Edit::MoveNode { id: b, .. }) if a == b => earlier,
-        _ => Edit::Many(vec![later, earlier]),
+    let same = match (&later, &earlier) {
+        (Edit::SetValue { socket: a, .. }, Edit::SetValue { socket: b, .. }) => a == b,
+        (Edit::MoveNode { id: a, .. }, Edit::MoveNode { id: b, .. })
+        | (Edit::SetLabel { id: a, .. }, Edit::SetLabel { id: b, .. }) => a == b,
+        (Edit::SetParameter { place: a, .. }, Edit::SetParameter { place: b, .. }) => a == b,
+        (Edit::SetName { .. }, Edit::SetName { .. }) | (Edit::SetSurface { .. }, Edit::SetSurface { .. }) => true,
+        _ => false,
+    };
+    if same { earlier } else { Edit::Many(vec![later, earlier]) }
+}
+
+fn values_of(edit: &mut Edit, change: &mut dyn FnMut(&mut Value)) {
+    match edit {
+        Edit::SetValue { value: Some(value), .. } => change(value),
+        Edit::AddNode { node, .. } => node.values.values_mut().for_each(change),
+        Edit::AddGroup { group, .. } => {
+            group.graph.nodes.values_mut().flat_map(|node| node.values.values_mut()).for_each(change);
+        }
+        Edit::In { edit, .. } => values_of(edit, change),
+        Edit::Many(edits) => edits.iter_mut().for_each(|edit| values_of(edit, change)),
+        _ => {}
     }
 }

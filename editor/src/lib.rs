@@ -1,6 +1,6 @@
 //! The Halfvector editor: a material as a node graph, its picture, its shader and its problems in one window.
 //!
-//! Reading order: `action` (what a person can do), `session` (the document, its history and selection), `stage` (what the
+//! Reading order: `action` (what a person can do), `session` (the document, its history and selection), `files` (what stands on disk), `stage` (what the
 //! material is seen on), `work` and `paint` (what runs on other threads), `app` (the window), `panes` (its parts).
 //!
 //! The document is the only truth. Panes read it and return [`Action`]s; nobody but [`Session`] changes it. No pane waits
@@ -10,6 +10,7 @@ mod accuracy;
 mod action;
 mod app;
 mod environments;
+mod files;
 mod history;
 mod library;
 mod paint;
@@ -22,8 +23,10 @@ mod work;
 
 use std::path::PathBuf;
 
-pub use action::Action;
+pub use action::{Action, Choose};
 pub use app::{Editor, Pane};
+pub use eframe::egui;
+pub use files::Folders;
 pub use session::{START_MATERIAL, Session};
 pub use stage::{Lamp, LampKind, Orbit, Stage};
 
@@ -34,6 +37,8 @@ pub struct Options {
     pub document: Option<PathBuf>,
     /// Draws on the CPU, as if there were no graphics card.
     pub without_gpu: bool,
+    /// Where settings and unsaved work are kept; nothing is without.
+    pub folders: Folders,
 }
 
 /// Why there is no window.

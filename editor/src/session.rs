@@ -1,14 +1,17 @@
 //! The document that is worked on, its history, its file and what is selected. The only place where it changes.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use halfvector_graph::check::{Problem, check};
-use halfvector_graph::document::{Document, NodeId};
+use halfvector_graph::document::{Document, Graph, Link, Node, NodeId, SocketRef};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::library::Library;
+use halfvector_graph::value::Value;
 
+use crate::files::relative::moved as moved_value;
 use crate::history::History;
 
 /// One open material.
@@ -16,7 +19,7 @@ use crate::history::History;
 pub struct Session {
     document: Arc<Document>,
     history: History,
-    /// Counts every change of the document.
+    /// Another number after every change of the document, and in every session.
     revision: u64,
     /// The document as it stands in its file.
     saved: Option<Arc<Document>>,
@@ -24,6 +27,8 @@ pub struct Session {
     selection: BTreeSet<NodeId>,
     /// Of the revision that it holds.
     problems: Vec<Problem>,
+    /// How costly nodes are; empty while the graph is not coloured by it.
+    heat: BTreeMap<NodeId, f32>,
 }
 
 /// The material that a new document holds, as the text of its file.
@@ -37,12 +42,9 @@ impl Session {
         Session::of(document, None)
     }
 
-    /// A session with the document of a file.
-    ///
-    /// # Errors
-    /// When it cannot be read.
-    pub fn open(path: &Path) -> Result<Session, halfvector_graph::file::FileError> {
-        Ok(Session::of(halfvector_graph::file::load(path)?, Some(path.to_owned())))
+    /// A session with a document that no file holds, but that belongs into one.
+    pub(crate) fn recovered(document: Document, file: Option<PathBuf>) -> Session {
+        Session { saved: None, ..Session::of(document, file) }
     }
 
     /// A session with a document that has no file.
@@ -50,17 +52,19 @@ impl Session {
         Session::of_shared(document, None)
     }
 
-    fn of(document: Document, file: Option<PathBuf>) -> Session {
+    /// A session with a document as it stands in its file, if it has one.
+    pub(crate) fn of(document: Document, file: Option<PathBuf>) -> Session {
         Session::of_shared(Arc::new(document), file)
     }
 
     fn of_shared(document: Arc<Document>, file: Option<PathBuf>) -> Session {
         Session {
             history: History::default(),
-            revision: 0,
+            revision: next_revision(),
             saved: Some(document.clone()),
             file,
             selection: BTreeSet::new(),
+            heat: BTreeMap::new(),
             problems: check(&document, Library::standard()),
             document,
         }
@@ -71,9 +75,39 @@ impl Session {
         &self.document
     }
 
-    /// Counts changes: what is derived from the document is stale when it differs.
+    /// Names this state of the document: what is derived from it is stale when this differs.
     pub fn revision(&self) -> u64 {
         self.revision
+    }
+
+    /// The graph that is worked on.
+    pub fn graph(&self) -> &Graph {
+        &self.document.graph
+    }
+
+    /// A node.
+    pub fn node(&self, id: &str) -> Option<&Node> {
+        self.graph().nodes.get(id)
+    }
+
+    /// All links.
+    pub fn links(&self) -> &[Link] {
+        &self.graph().links
+    }
+
+    /// What feeds an input.
+    pub fn incoming(&self, input: &SocketRef) -> Option<&SocketRef> {
+        self.graph().incoming(input)
+    }
+
+    /// The value that is set on an input.
+    pub fn value(&self, input: &SocketRef) -> Option<&Value> {
+        self.graph().value(input)
+    }
+
+    /// Whether some node decodes a normal map.
+    pub fn uses_normal_maps(&self) -> bool {
+        graphs(&self.document).any(|graph| graph.nodes.values().any(|node| node.node == "textures/normal_map"))
     }
 
     /// The file of the document, if it has one.
@@ -99,6 +133,16 @@ impl Session {
     /// All problems of the document.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
+    }
+
+    /// How costly each node is compared with the costliest, 0 to 1; empty while the graph is not to be coloured by it.
+    pub fn heat(&self) -> &BTreeMap<NodeId, f32> {
+        &self.heat
+    }
+
+    /// Says how costly nodes are.
+    pub(crate) fn set_heat(&mut self, heat: BTreeMap<NodeId, f32>) {
+        self.heat = heat;
     }
 
     /// The names of the steps that undo and redo would do.
@@ -138,19 +182,65 @@ impl Session {
         self.selection = nodes.into_iter().filter(|id| self.document.graph.nodes.contains_key(id)).collect();
     }
 
-    /// Writes the document to a file, which becomes its own.
-    pub(crate) fn save(&mut self, path: PathBuf) -> Result<(), halfvector_graph::file::FileError> {
-        halfvector_graph::file::save(&path, &self.document)?;
+    /// A document was written to a file, which is this session's from now on. Image paths start at its folder.
+    pub(crate) fn saved(&mut self, path: PathBuf, document: Arc<Document>) {
+        let (from, to) = (self.directory(), path.parent().map(Path::to_owned).unwrap_or_default());
         self.file = Some(path);
-        self.saved = Some(self.document.clone());
-        Ok(())
+        if let Some(moved) = with_images_moved(&self.document, &from, &to) {
+            self.document = Arc::new(moved);
+            self.history.for_each_value(&mut |value| {
+                if let Some(moved) = moved_value(value, &from, &to) {
+                    *value = moved;
+                }
+            });
+            self.changed();
+        }
+        self.saved = Some(document);
+    }
+
+    /// The document as it is to stand in a file of this folder: image paths mean the same files there.
+    pub(crate) fn document_for(&self, folder: &Path) -> Arc<Document> {
+        with_images_moved(&self.document, &self.directory(), folder).map_or_else(|| self.document.clone(), Arc::new)
+    }
+
+    /// The file holds something else than what was read or written last.
+    pub(crate) fn lost_its_file(&mut self) {
+        self.saved = None;
     }
 
     fn changed(&mut self) {
-        self.revision += 1;
+        self.revision = next_revision();
         self.problems = check(&self.document, Library::standard());
         self.selection.retain(|id| self.document.graph.nodes.contains_key(id));
     }
+}
+
+/// The document with its image paths as they are written in another folder; `None` when all stay.
+fn with_images_moved(document: &Document, from: &Path, to: &Path) -> Option<Document> {
+    let values = graphs(document).flat_map(|graph| graph.nodes.values()).flat_map(|node| node.values.values());
+    if values.filter_map(|value| moved_value(value, from, to)).count() == 0 {
+        return None;
+    }
+    let mut moved = document.clone();
+    let inside = moved.groups.values_mut().map(|group| &mut group.graph);
+    for node in std::iter::once(&mut moved.graph).chain(inside).flat_map(|graph| graph.nodes.values_mut()) {
+        for value in node.values.values_mut() {
+            if let Some(moved) = moved_value(value, from, to) {
+                *value = moved;
+            }
+        }
+    }
+    Some(moved)
+}
+
+/// All graphs of a document: its own and those of its groups.
+fn graphs(document: &Document) -> impl Iterator<Item = &Graph> {
+    std::iter::once(&document.graph).chain(document.groups.values().map(|group| &group.graph))
+}
+
+fn next_revision() -> u64 {
+    static REVISIONS: AtomicU64 = AtomicU64::new(0);
+    REVISIONS.fetch_add(1, Ordering::Relaxed)
 }
 
 impl Default for Session {

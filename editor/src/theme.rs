@@ -64,3 +64,23 @@ pub(crate) fn install(context: &egui::Context) {
         });
     }
 }
+
+/// Colours of code: keyword, type, number, comment, call, attribute.
+pub(crate) fn code_colors(is_dark: bool) -> [Color32; 6] {
+    let colors: [u32; 6] = if is_dark {
+        [0xc792ea, 0x82c8e0, 0xf0a36b, 0x7a828e, 0x8fb8f0, 0xa9b665]
+    } else {
+        [0x7b30a8, 0x0b6e85, 0xa8480c, 0x7a7f87, 0x2458a6, 0x5d6d10]
+    };
+    colors.map(|rgb| {
+        let [_, r, g, b] = rgb.to_be_bytes();
+        Color32::from_rgb(r, g, b)
+    })
+}
+
+/// From cold (0) to hot (1): what costs little and what costs much.
+pub(crate) fn heat(share: f32) -> Color32 {
+    let share = share.clamp(0.0, 1.0);
+    let mix = |a: f32, b: f32| (a + (b - a) * share) as u8;
+    Color32::from_rgb(mix(74.0, 232.0), mix(150.0, 88.0), mix(190.0, 70.0))
+}

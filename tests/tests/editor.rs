@@ -1,5 +1,8 @@
 //! The editor without a window: clicks, drags and keys go in, documents and pictures come out.
 
+mod code;
+mod files;
+mod inspector;
 mod library;
 mod opening;
 mod viewport;

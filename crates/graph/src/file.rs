@@ -81,6 +81,12 @@ pub enum FileError {
 
 /// Reads a document from a file.
 pub fn load(path: &Path) -> Result<Document, FileError> {
+    load_with_bytes(path).map(|(document, _)| document)
+}
+
+/// Reads a document from a file, and returns the bytes that it was read from: an editor tells by them whether others have
+/// changed the file since.
+pub fn load_with_bytes(path: &Path) -> Result<(Document, Vec<u8>), FileError> {
     let in_file = |source| FileError::InFile { path: path.into(), source: Box::new(source) };
     let read_error = |source| FileError::Read { path: path.into(), source };
     let mut bytes = Vec::new();
@@ -93,7 +99,8 @@ pub fn load(path: &Path) -> Result<Document, FileError> {
         let line = bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
         in_file(FileError::NotText { line })
     })?;
-    from_json(text).map_err(in_file)
+    let document = from_json(text).map_err(in_file)?;
+    Ok((document, bytes))
 }
 
 /// Writes a document to a file; the old file stays whole until the new one stands.

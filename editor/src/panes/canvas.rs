@@ -27,9 +27,9 @@ impl Canvas {
         if let Some(node) = self.wanted.take() {
             actions.push(Action::Select(vec![node]));
         }
-        for id in session.document().graph.nodes.keys() {
-            let label = node_label(&session.document().graph, Library::standard(), id);
-            let definition = session.document().graph.nodes.get(id).and_then(|node| Library::standard().get(&node.node));
+        for id in session.graph().nodes.keys() {
+            let label = node_label(session.graph(), Library::standard(), id);
+            let definition = session.graph().nodes.get(id).and_then(|node| Library::standard().get(&node.node));
             let output = definition.and_then(|definition| definition.outputs.first());
             let category = definition.map_or("", |definition| definition.id.split('/').next().unwrap_or(""));
             let color = output.map_or(theme::category_color(category), |output| theme::socket_color(output.ty));

@@ -1,45 +1,233 @@
-//! All problems of the document; a click shows the node. The checking is `graph::check`.
+//! All problems of the material: what its document says, normal maps that run the other way, and on demand where f32 computes
+//! something else than exact arithmetic. A click shows the node.
 
-use eframe::egui;
-use halfvector_graph::check::Severity;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use eframe::egui::{self, Button, TextEdit};
+use halfvector_graph::check::{Problem, Severity};
+use halfvector_graph::document::Document;
+use halfvector_reference::{Finding, Stability, stability};
+use halfvector_scene::{ImageStore, Scene, SceneMaterial, normal_map_problems};
 
 use crate::action::Action;
+use crate::panes::inspector::named_text;
 use crate::session::Session;
 use crate::theme;
+use crate::work::Worker;
+
+/// What is to be looked at off the window's thread.
+#[derive(Debug)]
+struct Job {
+    document: Arc<Document>,
+    directory: PathBuf,
+    revision: u64,
+    /// Whether f32 is compared with f64.
+    stability: bool,
+}
+
+/// What was found.
+#[derive(Debug)]
+struct Found {
+    revision: u64,
+    problems: Vec<Problem>,
+    stability: Option<Result<Stability, String>>,
+}
 
 /// The list of problems.
-#[derive(Debug, Default)]
-pub(crate) struct Problems;
+#[derive(Debug)]
+pub(crate) struct Problems {
+    worker: Option<Worker<Job, Found>>,
+    /// The revision whose pictures were looked at, or are.
+    asked: Option<u64>,
+    notices: Vec<Problem>,
+    /// Of the revision that it holds.
+    stability: Option<(u64, Result<Stability, String>)>,
+    filter: String,
+    errors: bool,
+    warnings: bool,
+}
 
 impl Problems {
+    /// Starts the thread that looks at pictures and at precision.
+    pub(crate) fn new(context: &egui::Context) -> Problems {
+        let worker = Worker::start("problems", context, |job: Job, _| Some(look(&job)));
+        Problems {
+            worker: worker.ok(),
+            asked: None,
+            notices: Vec::new(),
+            stability: None,
+            filter: String::new(),
+            errors: true,
+            warnings: true,
+        }
+    }
+
+    /// Whether nothing is being looked at.
+    pub(crate) fn is_idle(&self) -> bool {
+        self.worker.as_ref().is_none_or(|worker| !worker.is_busy())
+    }
+
+    /// How many problems there are.
+    pub(crate) fn count(&self, session: &Session) -> usize {
+        let unstable = self.stability.as_ref().and_then(|(_, found)| found.as_ref().ok());
+        session.problems().len() + self.notices.len() + unstable.map_or(0, |found| found.unstable.len())
+    }
+
+    /// Takes what was found, and has the pictures of normal maps looked at after a change.
+    pub(crate) fn hear(&mut self, session: &Session) {
+        while let Some(found) = self.worker.as_ref().and_then(Worker::poll) {
+            self.notices = found.problems;
+            if let Some(stability) = found.stability {
+                self.stability = Some((found.revision, stability));
+            }
+        }
+        if self.asked != Some(session.revision()) {
+            self.asked = Some(session.revision());
+            if session.uses_normal_maps() {
+                self.submit(session, false);
+            } else {
+                self.notices.clear();
+            }
+        }
+    }
+
+    fn submit(&self, session: &Session, stability: bool) {
+        if let Some(worker) = &self.worker {
+            let (document, directory) = (session.document().clone(), session.directory());
+            worker.submit(Job { document, directory, revision: session.revision(), stability });
+        }
+    }
+
     /// Draws the list.
     pub(crate) fn show(&mut self, ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
-            if session.problems().is_empty() {
-                ui.colored_label(theme::GOOD, "No problems");
-                return;
-            }
+            self.bar(ui, session);
             egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                for problem in session.problems() {
-                    let (mark, color) = match problem.severity {
-                        Severity::Error => ("●", theme::ERROR),
-                        Severity::Warning => ("▲", theme::WARNING),
-                    };
-                    ui.horizontal_wrapped(|ui| {
-                        ui.colored_label(color, mark);
-                        if let Some(node) = &problem.node {
-                            let label = problem.node_label.as_deref().unwrap_or(node);
-                            if ui.link(label).on_hover_text("Show the node").clicked() {
-                                actions.push(Action::Show(node.clone()));
-                            }
-                        }
-                        if let Some(socket) = &problem.socket {
-                            ui.weak(socket);
-                        }
-                        ui.label(&problem.message);
-                    });
+                let all: Vec<&Problem> = session.problems().iter().chain(&self.notices).collect();
+                let shown: Vec<&&Problem> = all.iter().filter(|problem| self.passes(problem)).collect();
+                if all.is_empty() {
+                    ui.colored_label(theme::GOOD, "No problems");
+                } else if shown.is_empty() {
+                    ui.weak(format!("None of {} problems passes the filter", all.len()));
                 }
+                for problem in shown {
+                    row(ui, problem, actions);
+                }
+                self.precision(ui, session, actions);
             });
         });
     }
+
+    fn bar(&mut self, ui: &mut egui::Ui, session: &Session) {
+        ui.horizontal(|ui| {
+            ui.toggle_value(&mut self.errors, "Errors").on_hover_text("What keeps a shader from being made");
+            ui.toggle_value(&mut self.warnings, "Warnings").on_hover_text("What may not be meant");
+            let field = TextEdit::singleline(&mut self.filter).hint_text("Filter").desired_width(140.0);
+            let response = ui.add(field).on_hover_text("Only problems with these words");
+            named_text(&response, &self.filter, "Filter problems");
+            ui.separator();
+            let sound = !session.problems().iter().any(|problem| problem.severity == Severity::Error);
+            let busy = !self.is_idle();
+            let hint = "Run every node in f32 and in f64 over the points it may meet, and list what f32 gets wrong";
+            let button = ui.add_enabled(sound && !busy, Button::new("Check stability")).on_hover_text(hint);
+            if button.on_disabled_hover_text("Mend the errors first").clicked() {
+                self.submit(session, true);
+            }
+            if busy {
+                ui.spinner();
+            }
+        });
+        ui.add_space(2.0);
+    }
+
+    fn passes(&self, problem: &Problem) -> bool {
+        let shown = match problem.severity {
+            Severity::Error => self.errors,
+            Severity::Warning => self.warnings,
+        };
+        let text = problem.to_string().to_lowercase();
+        shown && self.filter.to_lowercase().split_whitespace().all(|word| text.contains(word))
+    }
+
+    /// What the check of stability has found.
+    fn precision(&self, ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
+        let Some((revision, found)) = &self.stability else { return };
+        ui.add_space(6.0);
+        ui.separator();
+        ui.horizontal(|ui| {
+            ui.strong("Stability");
+            if *revision != session.revision() {
+                ui.weak("of an older state; check again");
+            }
+        });
+        match found {
+            Err(why) => {
+                ui.colored_label(theme::ERROR, why);
+            }
+            Ok(found) => {
+                if found.unstable.is_empty() {
+                    ui.colored_label(theme::GOOD, "f32 computes what exact arithmetic does, everywhere that was tried");
+                }
+                found.unstable.iter().for_each(|finding| unstable(ui, finding, "f32 is wrong", actions));
+                found.edges.iter().for_each(|finding| unstable(ui, finding, "a jump that f32 may miss", actions));
+            }
+        }
+    }
+}
+
+fn look(job: &Job) -> Found {
+    let material = SceneMaterial { document: (*job.document).clone(), directory: job.directory.clone() };
+    let mut images = ImageStore::default();
+    // A picture that cannot be read is told by the picture of the material.
+    let loaded = images.load(std::slice::from_ref(&material));
+    let problems = if loaded.is_ok() { normal_map_problems(&material, &images) } else { Vec::new() };
+    let found = job.stability.then(|| {
+        loaded.map_err(|error| error.to_string())?;
+        let scene = Scene { materials: vec![material], images, ..Scene::default() };
+        stability(&scene, 0).map_err(|error| error.to_string())
+    });
+    Found { revision: job.revision, problems, stability: found }
+}
+
+fn row(ui: &mut egui::Ui, problem: &Problem, actions: &mut Vec<Action>) {
+    let (mark, color) = match problem.severity {
+        Severity::Error => ("●", theme::ERROR),
+        Severity::Warning => ("▲", theme::WARNING),
+    };
+    ui.horizontal_wrapped(|ui| {
+        ui.colored_label(color, mark);
+        if let Some(node) = &problem.node {
+            let label = problem.node_label.as_deref().unwrap_or(node);
+            if ui.link(label).on_hover_text("Show the node").clicked() {
+                actions.push(Action::Show(node.clone()));
+            }
+        }
+        if let Some(socket) = &problem.socket {
+            ui.weak(socket);
+        }
+        ui.label(&problem.message);
+    });
+}
+
+fn unstable(ui: &mut egui::Ui, finding: &Finding, what: &str, actions: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.colored_label(theme::WARNING, "▲");
+        if ui.link(&finding.label).on_hover_text("Show the node").clicked() {
+            actions.push(Action::Show(finding.node.clone()));
+        }
+        ui.weak(&finding.output);
+        let place: Vec<String> = finding.input.iter().map(|(name, x)| format!("{name} = {x:.6}")).collect();
+        let place = if place.is_empty() { "its constants".to_owned() } else { place.join(", ") };
+        ui.label(format!("{what}: {:.6} instead of {:.6} at {place}", finding.single, finding.exact));
+        for (count, what) in [
+            (finding.not_finite, "infinite or no number"),
+            (finding.underflows, "below f32's range"),
+            (finding.beyond_f16, "beyond f16's range"),
+        ] {
+            if count > 0 {
+                ui.weak(format!("{what} at {count} points"));
+            }
+        }
+    });
 }

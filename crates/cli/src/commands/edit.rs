@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use halfvector_editor::{EditorError, Options};
+use halfvector_editor::{EditorError, Folders, Options};
 
 use crate::commands::first_light;
 use crate::failure::Failure;
@@ -23,7 +23,11 @@ pub(crate) fn run(args: &EditArgs) -> Result<u8, Failure> {
     if let Some(path) = &args.document {
         crate::input::material(path)?;
     }
-    match halfvector_editor::run(Options { document: args.document.clone(), ..Options::default() }) {
+    match halfvector_editor::run(Options {
+        document: args.document.clone(),
+        folders: Folders::of_user(),
+        ..Options::default()
+    }) {
         Ok(()) => Ok(0),
         Err(error) => Err(Failure::input("the editor did not open")
             .because(error)
@@ -33,7 +37,7 @@ pub(crate) fn run(args: &EditArgs) -> Result<u8, Failure> {
 
 /// Opens the editor with the start material; where there is no display, draws that instead.
 pub(crate) fn run_or_draw() -> Result<u8, Failure> {
-    match halfvector_editor::run(Options::default()) {
+    match halfvector_editor::run(Options { document: None, folders: Folders::of_user() }) {
         Ok(()) => Ok(0),
         Err(error @ (EditorError::NoDisplay | EditorError::Window(_))) => {
             note(format_args!(

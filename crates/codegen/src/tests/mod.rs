@@ -1,5 +1,6 @@
 //! Whole documents through codegen.
 
+mod cost;
 mod figures;
 mod folding;
 mod hostile;

@@ -1,0 +1,132 @@
+//! The file dialog: which files it shows, where it opens, and what is done with the file that is chosen.
+
+use std::path::{Path, PathBuf};
+
+use egui_file_dialog::{FileDialog, Filter};
+use halfvector_graph::document::SocketRef;
+use halfvector_graph::edit::Edit;
+use halfvector_graph::library::Library;
+use halfvector_graph::node_def::Default as SocketDefault;
+use halfvector_graph::value::{ColorSpace, ImageRef, Value};
+
+use crate::action::{Action, Choose};
+use crate::app::Editor;
+use crate::app::files::Next;
+use crate::files::relative;
+
+/// How the names of materials end.
+const ENDING: &str = ".material.json";
+/// Endings of pictures that can be read.
+const PICTURES: &[&str] = &["png", "jpg", "jpeg", "exr", "hdr", "tif", "tiff", "webp", "tga", "bmp"];
+
+/// An open file dialog.
+pub(crate) struct Chooser {
+    dialog: FileDialog,
+    purpose: Choose,
+}
+
+impl Editor {
+    /// Opens the dialog.
+    pub(crate) fn choose(&mut self, purpose: Choose) {
+        let folder = self.session.file().and_then(Path::parent).map(Path::to_owned);
+        let folder = folder.or_else(|| self.files.settings.last_folder.clone()).filter(|folder| folder.is_dir());
+        let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default();
+        let mut dialog = FileDialog::new().initial_directory(folder).default_size([760.0, 480.0]);
+        let is_material = |path: &Path| path.to_str().is_some_and(|name| name.ends_with(ENDING));
+        match &purpose {
+            Choose::Open => {
+                dialog = dialog
+                    .title("Open a material")
+                    .add_file_filter("Materials", Filter::new(is_material))
+                    .default_file_filter("Materials");
+                dialog.pick_file();
+            }
+            Choose::SaveAs => {
+                dialog = dialog.title("Save the material").default_file_name(&self.proposed_name());
+                dialog.save_file();
+            }
+            Choose::Image(_) => {
+                let is_picture = |path: &Path| {
+                    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+                    PICTURES.contains(&ending.to_ascii_lowercase().as_str())
+                };
+                dialog = dialog
+                    .title("Choose a picture")
+                    .add_file_filter("Pictures", Filter::new(is_picture))
+                    .default_file_filter("Pictures");
+                dialog.pick_file();
+            }
+            Choose::ExportFolder => {
+                dialog = dialog.title("Export into a folder");
+                dialog.pick_directory();
+            }
+        }
+        self.files.chooser = Some(Chooser { dialog, purpose });
+    }
+
+    /// Draws the dialog and takes what is chosen.
+    pub(crate) fn show_chooser(&mut self) {
+        let Some(chooser) = &mut self.files.chooser else { return };
+        chooser.dialog.update(&self.context);
+        if let Some(path) = chooser.dialog.take_picked() {
+            let purpose = chooser.purpose.clone();
+            self.files.chooser = None;
+            self.chosen(purpose, path);
+        } else if !matches!(chooser.dialog.state(), egui_file_dialog::DialogState::Open) {
+            self.files.chooser = None;
+            self.cancel();
+        }
+    }
+
+    fn chosen(&mut self, purpose: Choose, path: PathBuf) {
+        match purpose {
+            Choose::Open => self.ask(Next::Open(path)),
+            // The dialog has asked about a file that is there.
+            Choose::SaveAs => self.save_as(with_ending(path), true),
+            Choose::Image(socket) => {
+                let edit = Edit::SetValue { value: Some(self.picture(&socket, &path)), socket };
+                self.act(Action::edit("Choose a picture", edit));
+            }
+            Choose::ExportFolder => self.export_to(path),
+        }
+    }
+
+    /// The value of an input when it gets another picture: all else about it stays.
+    fn picture(&self, socket: &SocketRef, path: &Path) -> Value {
+        let file = match self.session.file().and_then(Path::parent) {
+            Some(folder) => relative::written(path, folder),
+            None => path.to_string_lossy().into_owned(),
+        };
+        if let Some(Value::Image(image)) = self.session.value(socket) {
+            return Value::Image(ImageRef { file, ..image.clone() });
+        }
+        let def = self.session.node(&socket.node).and_then(|node| Library::standard().get(&node.node));
+        let input = def.and_then(|def| def.inputs.iter().find(|input| input.name == socket.socket));
+        let color_space = match input.map(|input| &input.default) {
+            Some(SocketDefault::Image(color_space)) => *color_space,
+            _ => ColorSpace::Srgb,
+        };
+        let (wrap_u, wrap_v, filter) = Default::default();
+        Value::Image(ImageRef { file, color_space, wrap_u, wrap_v, filter })
+    }
+
+    fn proposed_name(&self) -> String {
+        if let Some(name) = self.session.file().and_then(Path::file_name) {
+            return name.to_string_lossy().into_owned();
+        }
+        let words = self.session.document().name.to_lowercase();
+        let name: String = words.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+        format!("{}{ENDING}", if name.is_empty() { "material" } else { &name })
+    }
+}
+
+/// The path with the ending of materials; what stands there of it already is not repeated.
+fn with_ending(path: PathBuf) -> PathBuf {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    if name.ends_with(ENDING) {
+        return path;
+    }
+    let name = name.strip_suffix(".json").unwrap_or(&name);
+    let name = name.strip_suffix(".material").unwrap_or(name);
+    path.with_file_name(format!("{name}{ENDING}"))
+}

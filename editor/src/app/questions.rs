@@ -1,0 +1,246 @@
+//! The window's questions: dialogs that wait for an answer, and strips at its top that do not.
+
+use std::path::PathBuf;
+
+use eframe::egui;
+
+use crate::app::Editor;
+use crate::app::files::Next;
+use crate::files::clerk::Order;
+use crate::files::difference::differences;
+use crate::theme;
+
+/// What a dialog asks.
+#[derive(Debug)]
+pub(crate) enum Question {
+    /// The document is not saved, and this would lose it.
+    Unsaved(Next),
+    /// Others have changed the file that is to be written.
+    Overwrite(PathBuf),
+    /// Windows that are gone have left unsaved work.
+    Lost,
+    /// The sheet of keys.
+    Keys,
+    /// What this program is.
+    About,
+}
+
+/// The answers to a dialog.
+#[derive(Clone, Copy)]
+enum Answer {
+    Save,
+    SaveAs,
+    Discard,
+    Cancel,
+    Overwrite,
+    Reload,
+    Recover(usize),
+    Forget(usize),
+    Later,
+}
+
+impl Editor {
+    /// Draws the dialog that is open, and takes its answer.
+    pub(crate) fn show_question(&mut self) {
+        let Some(question) = &self.files.question else { return };
+        let mut answer = None;
+        let context = self.context.clone();
+        let modal = egui::Modal::new(egui::Id::new("question")).show(&context, |ui| {
+            ui.set_width(460.0);
+            match question {
+                Question::Unsaved(next) => answer = self.ask_unsaved(ui, next),
+                Question::Overwrite(path) => answer = ask_overwrite(ui, path),
+                Question::Lost => answer = self.ask_lost(ui),
+                Question::Keys => answer = crate::app::sheet::keys(ui).then_some(Answer::Cancel),
+                Question::About => answer = crate::app::sheet::about(ui).then_some(Answer::Cancel),
+            }
+        });
+        if answer.is_none() && modal.should_close() {
+            answer = Some(if matches!(question, Question::Lost) { Answer::Later } else { Answer::Cancel });
+        }
+        if let Some(answer) = answer {
+            self.take(answer);
+        }
+    }
+
+    fn take(&mut self, answer: Answer) {
+        let question = self.files.question.take();
+        match (answer, question) {
+            (Answer::Save, Some(Question::Unsaved(next))) => self.save_then(next),
+            (Answer::Discard, Some(Question::Unsaved(next))) => self.go(next),
+            (Answer::Overwrite, Some(Question::Overwrite(path))) => self.save_as(path, true),
+            (Answer::SaveAs, _) => self.choose(crate::action::Choose::SaveAs),
+            (Answer::Reload, _) => {
+                self.cancel();
+                self.reload_file();
+            }
+            (Answer::Recover(place), question) => {
+                let lost = self.files.lost.remove(place);
+                let more = !self.files.lost.is_empty();
+                self.ask(Next::Recover(Box::new(lost)));
+                if more && self.files.question.is_none() {
+                    self.files.question = question;
+                }
+            }
+            (Answer::Forget(place), question) => {
+                let lost = self.files.lost.remove(place);
+                self.files.order(Order::Forget(lost));
+                self.files.question = question.filter(|_| !self.files.lost.is_empty());
+            }
+            (Answer::Later, _) => self.put_off_lost(),
+            _ => self.cancel(),
+        }
+    }
+
+    /// Reads the open file again, whatever is lost.
+    fn reload_file(&mut self) {
+        if let Some(path) = self.session.file() {
+            self.go(Next::Open(path.to_owned()));
+        }
+    }
+
+    fn ask_unsaved(&self, ui: &mut egui::Ui, next: &Next) -> Option<Answer> {
+        let what = match next {
+            Next::New | Next::NewFrom(_) => "before a new one is begun",
+            Next::Open(_) => "before another one is opened",
+            Next::Recover(_) => "before the other one is recovered",
+            Next::Close => "before the window closes",
+        };
+        ui.heading(format!("Save “{}”?", self.session.document().name));
+        ui.label(format!("It has changes that no file holds. Save them {what}?"));
+        buttons(
+            ui,
+            &[
+                ("Save", "Write the changes to the file", Answer::Save),
+                ("Discard", "The changes are lost", Answer::Discard),
+                ("Cancel", "Go on as before", Answer::Cancel),
+            ],
+        )
+    }
+
+    fn ask_lost(&self, ui: &mut egui::Ui) -> Option<Answer> {
+        let mut answer = None;
+        ui.heading("Recover unsaved work?");
+        ui.label("Halfvector ended without saving this:");
+        ui.add_space(4.0);
+        for (place, lost) in self.files.lost.iter().enumerate() {
+            ui.separator();
+            ui.horizontal(|ui| {
+                ui.vertical(|ui| {
+                    ui.set_width(280.0);
+                    ui.strong(&lost.record.name);
+                    let file = lost.record.file.as_ref().map(|file| file.display().to_string());
+                    ui.weak(format!("{}, {}", file.as_deref().unwrap_or("never saved"), lost.record.age()));
+                });
+                if ui.button("Recover").on_hover_text("Open it here, not saved yet").clicked() {
+                    answer = Some(Answer::Recover(place));
+                }
+                if ui.button("Discard").on_hover_text("It is lost for good").clicked() {
+                    answer = Some(Answer::Forget(place));
+                }
+            });
+        }
+        answer.or(buttons(ui, &[("Later", "Ask again at the next start", Answer::Later)]))
+    }
+
+    /// Draws what is to be known of the open file, above the panes.
+    pub(crate) fn show_strips(&mut self, ui: &mut egui::Ui) {
+        if !self.files.also_open.is_empty() {
+            let processes: Vec<String> = self.files.also_open.iter().map(u32::to_string).collect();
+            let text = format!(
+                "This file is open in another window too (process {}). What is saved last stays.",
+                processes.join(", ")
+            );
+            strip(ui, "also_open", &text, |ui| {
+                if ui.button("Got it").on_hover_text("Hide this line").clicked() {
+                    self.files.also_open.clear();
+                }
+            });
+        }
+        self.show_outside(ui);
+    }
+
+    fn show_outside(&mut self, ui: &mut egui::Ui) {
+        let Some(outside) = &self.files.outside else { return };
+        let (can_reload, is_shown) = (outside.document.is_ok(), outside.is_shown);
+        let text = match &outside.document {
+            Ok(_) => "The file was changed by another program.".to_owned(),
+            Err(why) => format!("The file was changed by another program and cannot be read: {why}"),
+        };
+        let (mut reload, mut keep, mut show) = (false, false, is_shown);
+        strip(ui, "outside", &text, |ui| {
+            let button = egui::Button::new("Reload");
+            let hint = "Take what stands in the file; changes made here are lost";
+            reload = ui.add_enabled(can_reload, button).on_hover_text(hint).clicked();
+            keep =
+                ui.button("Keep mine").on_hover_text("Stay with what is here; saving writes over the file").clicked();
+            if can_reload {
+                ui.toggle_value(&mut show, "Show what changed").on_hover_text("List the differences");
+            }
+        });
+        if let Some(outside) = &mut self.files.outside {
+            outside.is_shown = show;
+            if let (true, Ok(theirs)) = (show, &outside.document) {
+                let lines = differences(self.session.document(), theirs);
+                egui::Panel::top("differences").show(ui, |ui| {
+                    ui.weak("In the file, compared with what is here:");
+                    egui::ScrollArea::vertical().max_height(160.0).auto_shrink([false, true]).show(ui, |ui| {
+                        lines.iter().for_each(|line| {
+                            ui.label(line);
+                        });
+                    });
+                });
+            }
+        }
+        if reload {
+            self.reload();
+        } else if keep {
+            self.keep_mine();
+        }
+    }
+}
+
+fn ask_overwrite(ui: &mut egui::Ui, path: &std::path::Path) -> Option<Answer> {
+    ui.heading("Write over changes of another program?");
+    ui.label(format!("{} was changed since it was opened here.", path.display()));
+    buttons(
+        ui,
+        &[
+            ("Overwrite", "The other changes are lost", Answer::Overwrite),
+            ("Save as", "Write to another file", Answer::SaveAs),
+            ("Reload", "Take what stands in the file; changes made here are lost", Answer::Reload),
+            ("Cancel", "Do nothing", Answer::Cancel),
+        ],
+    )
+}
+
+/// A row of buttons; the first one answers to Enter.
+fn buttons(ui: &mut egui::Ui, answers: &[(&str, &str, Answer)]) -> Option<Answer> {
+    ui.add_space(12.0);
+    ui.horizontal(|ui| {
+        let mut answer = None;
+        for (place, (text, hint, meaning)) in answers.iter().enumerate() {
+            let response = ui.button(*text).on_hover_text(*hint);
+            if place == 0 && ui.memory(|memory| memory.focused().is_none()) {
+                response.request_focus();
+            }
+            if response.clicked() {
+                answer = Some(*meaning);
+            }
+        }
+        answer
+    })
+    .inner
+}
+
+/// A line across the window with something to know and what can be done.
+fn strip(ui: &mut egui::Ui, id: &str, text: &str, add_buttons: impl FnOnce(&mut egui::Ui)) {
+    let fill = theme::WARNING.gamma_multiply(0.18);
+    let frame = egui::Frame::new().fill(fill).inner_margin(egui::Margin::symmetric(8, 4));
+    egui::Panel::top(egui::Id::new(id)).frame(frame).show(ui, |ui| {
+        ui.horizontal(|ui| {
+            ui.label(text);
+            add_buttons(ui);
+        });
+    });
+}

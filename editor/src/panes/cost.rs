@@ -1,0 +1,186 @@
+//! What each node costs in the exported shader: bars, and on demand the graph coloured by them. The counting is
+//! `halfvector_codegen::cost`.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use eframe::egui::{self, Align, Layout, Sense};
+use halfvector_codegen::cost::{Cost as Counted, Figures, cost};
+use halfvector_codegen::{Fold, shader};
+use halfvector_graph::check::node_label;
+use halfvector_graph::document::{Document, NodeId};
+use halfvector_graph::library::Library;
+use halfvector_graph::needs::Needs;
+
+use crate::action::Action;
+use crate::panes::code::needs_of;
+use crate::session::Session;
+use crate::stage::Stage;
+use crate::theme;
+use crate::work::Worker;
+
+/// A count that is wanted.
+#[derive(Debug)]
+struct Job {
+    document: Arc<Document>,
+    needs: Needs,
+}
+
+/// The costs of nodes.
+#[derive(Debug)]
+pub(crate) struct Cost {
+    worker: Option<Worker<Job, Result<Counted, String>>>,
+    /// Revision and needs of the job that was given last.
+    asked: Option<(u64, Needs)>,
+    counted: Option<Result<Counted, String>>,
+    colors_graph: bool,
+    /// Whether the pane was drawn since the last frame: nothing is counted for nobody.
+    is_seen: bool,
+}
+
+impl Cost {
+    /// Starts the thread that counts.
+    pub(crate) fn new(context: &egui::Context) -> Cost {
+        let worker = Worker::start("cost", context, |job: Job, _| {
+            let made = shader(&job.document, Library::standard(), &job.needs, Fold::Export);
+            let made = made.map_err(|error| error.to_string());
+            Some(made.and_then(|shader| cost(&shader).map_err(|error| error.to_string())))
+        });
+        Cost { worker: worker.ok(), asked: None, counted: None, colors_graph: false, is_seen: false }
+    }
+
+    /// Whether nothing is being counted.
+    pub(crate) fn is_idle(&self) -> bool {
+        self.worker.as_ref().is_none_or(|worker| !worker.is_busy())
+    }
+
+    /// Has the shader counted after a change, while somebody looks, and returns how costly each node is compared with the
+    /// costliest: 0 to 1. Empty while the graph is not to be coloured.
+    pub(crate) fn hear(&mut self, session: &Session, stage: &Stage) -> BTreeMap<NodeId, f32> {
+        while let Some(counted) = self.worker.as_ref().and_then(Worker::poll) {
+            self.counted = Some(counted);
+        }
+        let wanted = (session.revision(), needs_of(stage));
+        if std::mem::take(&mut self.is_seen) || self.colors_graph {
+            if let Some(worker) = self.worker.as_ref().filter(|_| self.asked.as_ref() != Some(&wanted)) {
+                worker.submit(Job { document: session.document().clone(), needs: wanted.1.clone() });
+                self.asked = Some(wanted);
+            }
+        }
+        let Some(Ok(counted)) = self.counted.as_ref().filter(|_| self.colors_graph) else { return BTreeMap::new() };
+        let most = counted.nodes.iter().map(|(_, figures)| weight(*figures)).max().unwrap_or(0).max(1);
+        counted.nodes.iter().map(|(id, figures)| (id.clone(), weight(*figures) as f32 / most as f32)).collect()
+    }
+
+    /// Draws the bars.
+    pub(crate) fn show(&mut self, ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
+        self.is_seen = true;
+        egui::Frame::new().inner_margin(8).show(ui, |ui| {
+            ui.horizontal_wrapped(|ui| {
+                ui.toggle_value(&mut self.colors_graph, "Colour the graph")
+                    .on_hover_text("The costlier a node, the redder");
+                ui.separator();
+                if let Some(Ok(counted)) = &self.counted {
+                    ui.label(total(counted)).on_hover_text(
+                        "Of the exported shader under the viewport's lights. Operations on single numbers, where a \
+                         transcendental function counts four and a loop four passes. A driver may need fewer.",
+                    );
+                }
+            });
+            ui.add_space(4.0);
+            match &self.counted {
+                None => {
+                    ui.spinner();
+                }
+                Some(Err(why)) => {
+                    ui.label(why);
+                }
+                Some(Ok(counted)) => bars(ui, session, counted, actions),
+            }
+        });
+    }
+}
+
+/// One number for what counts two things: a sample costs about as much as this many operations.
+fn weight(figures: Figures) -> u32 {
+    figures.operations.saturating_add(figures.samples.saturating_mul(16))
+}
+
+fn total(counted: &Counted) -> String {
+    let Counted { fragment, vertex, uniform_bytes, .. } = counted;
+    format!(
+        "fragment: {} operations, {} samples · vertex: {} operations, {} samples · {uniform_bytes} bytes of uniforms",
+        fragment.operations, fragment.samples, vertex.operations, vertex.samples
+    )
+}
+
+/// A row: whose cost, how much.
+struct Bar<'a> {
+    node: Option<&'a NodeId>,
+    label: String,
+    figures: Figures,
+    bytes: u32,
+}
+
+fn bars(ui: &mut egui::Ui, session: &Session, counted: &Counted, actions: &mut Vec<Action>) {
+    let bytes: BTreeMap<&NodeId, u32> = counted.node_uniform_bytes.iter().map(|(id, bytes)| (id, *bytes)).collect();
+    let of_nodes = counted.nodes.iter().fold(Figures::default(), |sum, (_, figures)| sum + *figures);
+    let whole = counted.fragment + counted.vertex;
+    let rest = Figures {
+        operations: whole.operations.saturating_sub(of_nodes.operations),
+        samples: whole.samples.saturating_sub(of_nodes.samples),
+    };
+    let mut bars: Vec<Bar> = counted
+        .nodes
+        .iter()
+        .map(|(id, figures)| Bar {
+            node: Some(id),
+            label: node_label(session.graph(), Library::standard(), id),
+            figures: *figures,
+            bytes: bytes.get(id).copied().unwrap_or(0),
+        })
+        .collect();
+    bars.push(Bar { node: None, label: "Light and transforms".to_owned(), figures: rest, bytes: 0 });
+    bars.sort_by_key(|bar| std::cmp::Reverse(weight(bar.figures)));
+    let most = bars.first().map_or(1, |bar| weight(bar.figures)).max(1);
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        for bar in &bars {
+            ui.horizontal(|ui| row(ui, bar, weight(bar.figures) as f32 / most as f32, actions));
+        }
+    });
+}
+
+fn row(ui: &mut egui::Ui, bar: &Bar<'_>, share: f32, actions: &mut Vec<Action>) {
+    let height = ui.spacing().interact_size.y;
+    let name = egui::vec2((ui.available_width() * 0.34).min(220.0), height);
+    ui.allocate_ui_with_layout(name, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_width(name.x);
+        match bar.node {
+            Some(node) => {
+                let link = ui.add(egui::Link::new(&bar.label));
+                if link.on_hover_text("Show the node").clicked() {
+                    actions.push(Action::Show(node.clone()));
+                }
+            }
+            None => {
+                ui.weak(&bar.label).on_hover_text("What is not any node's: lobes, lights, interpolation");
+            }
+        }
+    });
+    let figures = 210.0;
+    let width = (ui.available_width() - figures).max(40.0);
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(width, height), Sense::hover());
+    let track = rect.shrink2(egui::vec2(0.0, 5.0));
+    ui.painter().rect_filled(track, 3.0, ui.visuals().extreme_bg_color);
+    let mut filled = track;
+    filled.set_width(track.width() * share.clamp(0.0, 1.0));
+    ui.painter().rect_filled(filled, 3.0, theme::heat(share));
+    let mut text = format!("{:>6} op", bar.figures.operations);
+    if bar.figures.samples > 0 {
+        text += &format!("  {} tex", bar.figures.samples);
+    }
+    if bar.bytes > 0 {
+        text += &format!("  {} B", bar.bytes);
+    }
+    ui.monospace(text);
+}

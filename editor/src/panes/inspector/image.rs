@@ -1,0 +1,142 @@
+//! An image slot: the picture, its file, and how it is read.
+
+use std::path::PathBuf;
+
+use eframe::egui::{self, ComboBox, RichText, Sense};
+use halfvector_graph::document::SocketRef;
+use halfvector_graph::edit::Edit;
+use halfvector_graph::value::{ColorSpace, Filter, ImageRef, Value, Wrap};
+
+use crate::action::{Action, Choose};
+use crate::panes::inspector::input::{self, Slot};
+use crate::panes::inspector::row::{in_words, row};
+use crate::panes::inspector::thumbnail::{Thumbnail, Thumbnails};
+use crate::session::Session;
+use crate::theme;
+
+/// Side of the thumbnail.
+const SIDE: f32 = 64.0;
+
+/// Draws the slot.
+pub(crate) fn show(
+    ui: &mut egui::Ui,
+    session: &Session,
+    slot: &Slot<'_>,
+    thumbnails: &mut Thumbnails,
+    actions: &mut Vec<Action>,
+) {
+    let socket = SocketRef::new(slot.node, &slot.input.name);
+    let image = match session.value(&socket) {
+        Some(Value::Image(image)) => Some(image),
+        _ => None,
+    };
+    let mut chosen = Vec::new();
+    let mut menu = |ui: &mut egui::Ui| input::menu(ui, session, slot, &socket, None, &mut chosen);
+    let name = RichText::new(in_words(&slot.input.name));
+    let dot = Some(theme::socket_color(slot.ty));
+    row(
+        ui,
+        name,
+        &slot.input.help,
+        dot,
+        |ui, label| {
+            let text = image.map_or("Choose a picture…", |image| image.file.as_str());
+            let width = ui.available_width();
+            let button = egui::Button::new(text).truncate().min_size(egui::vec2(width, 0.0));
+            let response = ui.add(button).labelled_by(label);
+            if response.on_hover_text("Choose another file").clicked() {
+                actions.push(Action::Choose(Choose::Image(socket.clone())));
+            }
+        },
+        Some(&mut menu),
+    );
+    actions.extend(chosen);
+    let Some(image) = image else { return };
+    ui.indent("image", |ui| {
+        ui.horizontal(|ui| {
+            let path = session.directory().join(&image.file);
+            picture(ui, path, thumbnails);
+            ui.vertical(|ui| reading(ui, &socket, image, actions));
+        });
+    });
+}
+
+fn picture(ui: &mut egui::Ui, path: PathBuf, thumbnails: &mut Thumbnails) {
+    let (rect, response) = ui.allocate_exact_size(egui::vec2(SIDE, SIDE), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "Thumbnail"));
+    ui.painter().rect_filled(rect, 3.0, ui.visuals().extreme_bg_color);
+    // An image of a glTF file has no file of its own.
+    if path.to_string_lossy().contains('#') {
+        ui.painter().text(
+            rect.center(),
+            egui::Align2::CENTER_CENTER,
+            "glTF",
+            egui::FontId::default(),
+            ui.visuals().weak_text_color(),
+        );
+        return;
+    }
+    let hint = match thumbnails.get(&path) {
+        Thumbnail::Waiting => "Being read".to_owned(),
+        Thumbnail::Failed(why) => {
+            ui.painter().text(
+                rect.center(),
+                egui::Align2::CENTER_CENTER,
+                "?",
+                egui::FontId::proportional(24.0),
+                theme::ERROR,
+            );
+            why.clone()
+        }
+        Thumbnail::Ready(texture, what) => {
+            let size = texture.size_vec2();
+            let scale = SIDE / size.max_elem().max(1.0);
+            let inner = egui::Rect::from_center_size(rect.center(), size * scale);
+            let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+            ui.painter().image(texture.id(), inner, whole, egui::Color32::WHITE);
+            what.clone()
+        }
+    };
+    if response.on_hover_text(format!("{hint}\n{}\nClick to read it again", path.display())).clicked() {
+        thumbnails.forget(&path);
+    }
+}
+
+/// How the picture is read.
+fn reading(ui: &mut egui::Ui, socket: &SocketRef, image: &ImageRef, actions: &mut Vec<Action>) {
+    let mut now = image.clone();
+    ui.horizontal(|ui| {
+        let spaces = [(ColorSpace::Srgb, "sRGB colours"), (ColorSpace::Linear, "plain numbers")];
+        choice(
+            ui,
+            "coded as",
+            "Colours are decoded from sRGB; data such as normals and roughness are not",
+            &mut now.color_space,
+            &spaces,
+        );
+    });
+    let wraps = [(Wrap::Repeat, "repeat"), (Wrap::Clamp, "clamp"), (Wrap::Mirror, "mirror")];
+    ui.horizontal(|ui| {
+        choice(ui, "u", "What lies left and right of it", &mut now.wrap_u, &wraps);
+        choice(ui, "v", "What lies above and below it", &mut now.wrap_v, &wraps);
+    });
+    ui.horizontal(|ui| {
+        let filters = [(Filter::Linear, "smooth"), (Filter::Nearest, "nearest")];
+        choice(ui, "filter", "How it is read between its texels", &mut now.filter, &filters);
+    });
+    if now != *image {
+        let edit = Edit::SetValue { socket: socket.clone(), value: Some(Value::Image(now)) };
+        actions.push(Action::edit("Read the picture otherwise", edit));
+    }
+}
+
+fn choice<T: PartialEq + Copy>(ui: &mut egui::Ui, name: &str, hint: &str, value: &mut T, all: &[(T, &str)]) {
+    let label = ui.label(name).on_hover_text(hint);
+    let text = all.iter().find(|(one, _)| one == value).map_or("", |(_, text)| text);
+    let combo = ComboBox::from_id_salt(name).width(84.0).selected_text(text).show_ui(ui, |ui| {
+        for (one, text) in all {
+            ui.selectable_value(value, *one, *text);
+        }
+    });
+    combo.response.labelled_by(label.id);
+}

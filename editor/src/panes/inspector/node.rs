@@ -1,0 +1,106 @@
+//! One node: its label and help, what is wrong with it, its inputs.
+
+use eframe::egui::{self, CollapsingHeader, RichText, TextEdit};
+use halfvector_graph::check::Severity;
+use halfvector_graph::document::NodeId;
+use halfvector_graph::edit::Edit;
+use halfvector_graph::library::Library;
+use halfvector_graph::node_def::NodeDef;
+use halfvector_graph::resolve::resolve_types;
+use halfvector_graph::value::SocketType;
+
+use crate::action::Action;
+use crate::panes::inspector::input::{self, Slot};
+use crate::panes::inspector::row::{end_when_done, in_words, named_text};
+use crate::panes::inspector::thumbnail::Thumbnails;
+use crate::panes::inspector::{curve, help, metal, ramp};
+use crate::session::Session;
+use crate::theme;
+
+/// Draws the node.
+pub(crate) fn show(
+    ui: &mut egui::Ui,
+    session: &Session,
+    id: &NodeId,
+    thumbnails: &mut Thumbnails,
+    actions: &mut Vec<Action>,
+) {
+    let Some(node) = session.node(id) else { return };
+    let Some(def) = Library::standard().get(&node.node) else {
+        ui.heading(node.label.as_deref().unwrap_or(id));
+        ui.label(format!("This version does not know nodes of the kind {}. It is kept as it is.", node.node));
+        problems(ui, session, id);
+        return;
+    };
+    label(ui, id, node.label.as_deref(), def, actions);
+    CollapsingHeader::new("Help").id_salt(("help", &def.id)).show(ui, |ui| {
+        help::show(ui, &def.help);
+        outputs(ui, def);
+        ui.weak(format!("shaders/{}", def.file)).on_hover_text(&def.function.name);
+    });
+    problems(ui, session, id);
+    ui.separator();
+    ui.push_id(id, |ui| {
+        if curve::is_curve(def) {
+            curve::show(ui, session, id, def, actions);
+        }
+        if ramp::is_ramp(def) {
+            ramp::show(ui, session, id, def, actions);
+        }
+        if metal::is_metal(def) {
+            metal::show(ui, session, id, def, actions);
+        }
+        if def.inputs.is_empty() {
+            ui.weak("This node has no inputs.");
+        }
+        let generic = {
+            let types = resolve_types(session.graph(), Library::standard());
+            types.get(id).and_then(|types| types.generic)
+        };
+        for input in &def.inputs {
+            let ty = match (input.ty, generic) {
+                (SocketType::Generic, Some(ty)) => SocketType::Value(ty),
+                (ty, _) => ty,
+            };
+            input::show(ui, session, &Slot { node: id, input, ty }, thumbnails, actions);
+        }
+    });
+}
+
+/// The editable label, with the kind of the node below.
+fn label(ui: &mut egui::Ui, id: &NodeId, label: Option<&str>, def: &NodeDef, actions: &mut Vec<Action>) {
+    let mut text = label.unwrap_or_default().to_owned();
+    let field = TextEdit::singleline(&mut text)
+        .hint_text(&def.label)
+        .font(egui::TextStyle::Heading)
+        .desired_width(f32::INFINITY);
+    let response = ui.add(field).on_hover_text("The name of this node; empty for the name of its kind");
+    named_text(&response, &text, "Label of the node");
+    if response.changed() {
+        let label = Some(text).filter(|label| !label.trim().is_empty());
+        let edit = Edit::SetLabel { id: id.clone(), label };
+        actions.push(Action::drag("Rename", edit, format!("label of {id}")));
+    }
+    end_when_done(&response, actions);
+    ui.weak(format!("{} · {}", def.label, def.id));
+}
+
+fn outputs(ui: &mut egui::Ui, def: &NodeDef) {
+    for output in &def.outputs {
+        ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new(in_words(&output.name)).strong());
+            ui.label(&output.help);
+        });
+    }
+}
+
+fn problems(ui: &mut egui::Ui, session: &Session, id: &NodeId) {
+    for problem in session.problems().iter().filter(|problem| problem.node.as_ref() == Some(id)) {
+        let color = if problem.severity == Severity::Error { theme::ERROR } else { theme::WARNING };
+        let text = match &problem.socket {
+            Some(socket) => format!("{}: {}", in_words(socket), problem.message),
+            None => problem.message.clone(),
+        };
+        ui.colored_label(color, text);
+    }
+}

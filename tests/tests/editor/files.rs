@@ -1,0 +1,338 @@
+//! Files: nothing is lost, whatever happens, and nothing is overwritten without asking.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use halfvector_editor::{Action, Editor, Folders, Options, START_MATERIAL, egui};
+use halfvector_graph::document::{Document, SocketRef};
+use halfvector_graph::edit::Edit;
+use halfvector_graph::value::{ColorSpace, Filter, ImageRef, Value, Wrap};
+use tempfile::TempDir;
+
+use super::{open, settle};
+
+/// Tells a test that it is the process that is to be killed.
+const VICTIM: &str = "HALFVECTOR_TEST_VICTIM";
+
+/// A folder with a material in it, and folders for the editor's own files.
+struct Place {
+    folder: TempDir,
+}
+
+impl Place {
+    fn new() -> Place {
+        let place = Place { folder: TempDir::new().unwrap() };
+        std::fs::write(place.file(), START_MATERIAL).unwrap();
+        place
+    }
+
+    fn file(&self) -> PathBuf {
+        self.folder.path().join("enamel.material.json")
+    }
+
+    fn folders(&self) -> Folders {
+        folders_in(self.folder.path())
+    }
+
+    fn open(&self) -> Harness<'static, Editor> {
+        let mut harness = open(Options { document: Some(self.file()), folders: self.folders(), ..Options::default() });
+        settle(&mut harness);
+        harness
+    }
+
+    fn open_new(&self) -> Harness<'static, Editor> {
+        let mut harness = open(Options { folders: self.folders(), ..Options::default() });
+        settle(&mut harness);
+        harness
+    }
+
+    fn read(&self) -> Document {
+        halfvector_graph::file::load(&self.file()).unwrap()
+    }
+}
+
+fn folders_in(path: &Path) -> Folders {
+    Folders { settings: Some(path.join("settings")), recovery: Some(path.join("recovery")) }
+}
+
+fn rename(name: &str) -> Action {
+    Action::edit("Rename", Edit::SetName { name: name.to_owned() })
+}
+
+/// Draws frames until something is true.
+fn wait_for(harness: &mut Harness<'_, Editor>, what: &str, is_true: impl Fn(&Harness<'_, Editor>) -> bool) {
+    let start = Instant::now();
+    while !is_true(harness) {
+        harness.step();
+        assert!(start.elapsed() < Duration::from_secs(60), "{what} does not come");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+fn click(harness: &mut Harness<'_, Editor>, button: &str) {
+    harness.get_by_role_and_label(egui::accesskit::Role::Button, button).click();
+    settle(harness);
+}
+
+#[test]
+fn a_saved_material_is_the_one_that_was_worked_on() {
+    let place = Place::new();
+    let mut harness = place.open();
+    harness.state_mut().act(rename("Other"));
+    assert!(harness.state().session().is_unsaved());
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    settle(&mut harness);
+    assert!(!harness.state().session().is_unsaved());
+    assert_eq!(place.read(), **harness.state().session().document());
+    let recent = std::fs::read_to_string(place.folder.path().join("settings/editor.json"));
+    drop(harness);
+    let recent = recent.or_else(|_| std::fs::read_to_string(place.folder.path().join("settings/editor.json"))).unwrap();
+    assert!(recent.contains("enamel.material.json"), "{recent}");
+    assert_eq!(
+        std::fs::read_dir(place.folder.path().join("recovery")).unwrap().count(),
+        0,
+        "a clean end leaves nothing"
+    );
+}
+
+#[test]
+fn unsaved_work_is_asked_about() {
+    let place = Place::new();
+    let mut harness = place.open();
+    harness.state_mut().act(rename("Other"));
+    harness.state_mut().act(Action::New);
+    settle(&mut harness);
+    click(&mut harness, "Cancel");
+    assert_eq!(harness.state().session().document().name, "Other");
+    harness.state_mut().act(Action::New);
+    settle(&mut harness);
+    click(&mut harness, "Save");
+    assert_eq!(place.read().name, "Other");
+    assert_eq!(harness.state().session().file(), None);
+    assert_eq!(harness.state().session().document().name, "Worn enamel");
+    harness.state_mut().act(rename("Third"));
+    harness.state_mut().act(Action::Open(place.file()));
+    settle(&mut harness);
+    click(&mut harness, "Discard");
+    assert_eq!(harness.state().session().document().name, "Other");
+    assert!(!harness.state().session().is_unsaved());
+}
+
+#[test]
+fn the_window_does_not_close_over_unsaved_work() {
+    let place = Place::new();
+    let mut harness = place.open();
+    let close = |harness: &mut Harness<'_, Editor>| {
+        let viewports = &mut harness.input_mut().viewports;
+        viewports.entry(egui::ViewportId::ROOT).or_default().events.push(egui::ViewportEvent::Close);
+        harness.step();
+        let output = &harness.output().viewport_output[&egui::ViewportId::ROOT];
+        output.commands.contains(&egui::ViewportCommand::CancelClose)
+    };
+    assert!(!close(&mut harness), "nothing is unsaved");
+    harness.state_mut().act(rename("Other"));
+    assert!(close(&mut harness));
+    settle(&mut harness);
+    click(&mut harness, "Save");
+    assert_eq!(place.read().name, "Other");
+    assert!(!close(&mut harness));
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn a_dropped_material_is_opened() {
+    let place = Place::new();
+    let mut harness = place.open_new();
+    harness.input_mut().dropped_files.push(Arc::new(Dropped(place.file())));
+    settle(&mut harness);
+    assert_eq!(harness.state().session().file(), Some(place.file().as_path()));
+}
+
+#[test]
+fn paths_of_images_mean_the_same_files_in_another_folder() {
+    let place = Place::new();
+    let mut harness = place.open();
+    let inner = place.folder.path().join("sets/steel");
+    std::fs::create_dir_all(&inner).unwrap();
+    let socket = SocketRef::new("texture", "image");
+    let image = |file: &str| {
+        let (wrap_u, wrap_v) = (Wrap::Repeat, Wrap::Repeat);
+        let (color_space, filter) = (ColorSpace::Srgb, Filter::Linear);
+        Value::Image(ImageRef { file: file.to_owned(), color_space, wrap_u, wrap_v, filter })
+    };
+    let node = halfvector_graph::document::Node::new("textures/image").with("image", image("maps/rust.png"));
+    harness.state_mut().act(Action::edit("Add", Edit::AddNode { id: "texture".into(), node }));
+    let set = |file| Edit::SetValue { socket: socket.clone(), value: Some(image(file)) };
+    harness.state_mut().act(Action::edit("Choose", set("sets/steel/paint.png")));
+    harness.state_mut().act(Action::SaveAs(inner.join("steel.material.json")));
+    settle(&mut harness);
+    let value = |harness: &Harness<'_, Editor>| harness.state().session().value(&socket).cloned();
+    assert_eq!(value(&harness), Some(image("paint.png")));
+    let saved = halfvector_graph::file::load(&inner.join("steel.material.json")).unwrap();
+    assert_eq!(saved, **harness.state().session().document());
+    assert!(!harness.state().session().is_unsaved());
+    // What undo brings back starts at the new folder too.
+    harness.state_mut().act(Action::Undo);
+    assert_eq!(value(&harness), Some(image("../../maps/rust.png")));
+}
+
+#[test]
+fn a_change_by_others_is_offered_and_never_overwritten_unasked() {
+    let place = Place::new();
+    let mut harness = place.open();
+    let others = |name: &str| {
+        let mut document = place.read();
+        document.name = name.to_owned();
+        halfvector_graph::file::save(&place.file(), &document).unwrap();
+    };
+    let offered = |harness: &Harness<'_, Editor>| harness.query_by_label("Reload").is_some();
+    others("Theirs");
+    wait_for(&mut harness, "the offer", offered);
+    click(&mut harness, "Show what changed");
+    assert!(harness.query_by_label_contains("“Theirs” instead of “Worn enamel”").is_some());
+    click(&mut harness, "Reload");
+    assert_eq!(harness.state().session().document().name, "Theirs");
+    assert!(!harness.state().session().is_unsaved());
+
+    others("Theirs again");
+    wait_for(&mut harness, "the second offer", offered);
+    click(&mut harness, "Keep mine");
+    assert!(harness.state().session().is_unsaved());
+    harness.state_mut().act(Action::Save);
+    settle(&mut harness);
+    assert_eq!(place.read().name, "Theirs");
+
+    harness.state_mut().act(rename("Mine"));
+    // Faster than the window looks.
+    others("Theirs, unseen");
+    harness.state_mut().act(Action::Save);
+    settle(&mut harness);
+    assert_eq!(place.read().name, "Theirs, unseen");
+    click(&mut harness, "Overwrite");
+    assert_eq!(place.read().name, "Mine");
+    assert!(!harness.state().session().is_unsaved());
+}
+
+#[test]
+fn two_windows_on_one_file_notice_each_other() {
+    let place = Place::new();
+    let mut first = place.open();
+    let second = place.open();
+    let noticed = |harness: &Harness<'_, Editor>| harness.query_by_label_contains("open in another window").is_some();
+    wait_for(&mut first, "the notice", noticed);
+    drop(second);
+    wait_for(&mut first, "the end of the notice", |harness| !noticed(harness));
+}
+
+#[test]
+fn unsaved_work_is_recovered_after_a_kill() {
+    if let Some(folder) = std::env::var_os(VICTIM) {
+        work_without_saving(Path::new(&folder));
+    }
+    let place = Place::new();
+    let mut victim = victim("unsaved_work_is_recovered_after_a_kill", place.folder.path());
+    let records = || {
+        let files = std::fs::read_dir(place.folder.path().join("recovery")).into_iter().flatten().flatten();
+        files.filter_map(|file| std::fs::read_to_string(file.path()).ok()).any(|text| text.contains("Never saved"))
+    };
+    let start = Instant::now();
+    while !records() {
+        assert!(start.elapsed() < Duration::from_secs(120), "no record is written");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    // While it lives, its work is its own.
+    let other = place.open_new();
+    assert!(other.query_by_label("Recover").is_none());
+    drop(other);
+    victim.kill().unwrap();
+    victim.wait().unwrap();
+    let mut harness = place.open_new();
+    click(&mut harness, "Recover");
+    let session = harness.state().session();
+    assert_eq!(session.document().name, "Never saved");
+    assert!(session.is_unsaved());
+    assert_eq!(session.file().map(|file| file.canonicalize().unwrap()), Some(place.file().canonicalize().unwrap()));
+    assert_eq!(place.read().name, "Worn enamel", "the file is untouched until it is saved");
+    harness.state_mut().act(Action::Save);
+    settle(&mut harness);
+    assert_eq!(place.read().name, "Never saved");
+    drop(harness);
+    assert!(place.open_new().query_by_label("Recover").is_none());
+}
+
+fn work_without_saving(folder: &Path) -> ! {
+    let document = Some(folder.join("enamel.material.json"));
+    let mut harness = open(Options { document, folders: folders_in(folder), ..Options::default() });
+    harness.state_mut().act(rename("Never saved"));
+    loop {
+        harness.step();
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// Starts this test in a process of its own, which goes another way there.
+fn victim(test: &str, folder: &Path) -> Child {
+    Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", &format!("editor::files::{test}"), "--nocapture"])
+        .env(VICTIM, folder)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap()
+}
+
+#[test]
+fn killed_while_saving_loses_nothing() {
+    if let Some(folder) = std::env::var_os(VICTIM) {
+        save_for_ever(&Path::new(&folder).join("enamel.material.json"));
+    }
+    let place = Place::new();
+    for kill in 0..100_u64 {
+        let mut victim = victim("killed_while_saving_loses_nothing", place.folder.path());
+        let mut lines = BufReader::new(victim.stdout.take().unwrap()).lines();
+        // The harness' own words stand in front.
+        let mut said =
+            || lines.by_ref().map_while(Result::ok).find_map(|line| line.strip_prefix("saved ")?.parse::<u64>().ok());
+        let mut last = said().unwrap();
+        // Another moment each time: a save takes about a millisecond.
+        std::thread::sleep(Duration::from_micros(kill * 37 % 2000));
+        victim.kill().unwrap();
+        victim.wait().unwrap();
+        while let Some(number) = said() {
+            last = number;
+        }
+        let document = place.read();
+        let number: u64 = document.name.parse().unwrap();
+        assert!(number == last || number == last + 1, "{last} was saved, {number} is there");
+        assert_eq!(document.name, document.parameters[0].label.clone().unwrap(), "half of a document");
+    }
+}
+
+/// Saves one document after the other, and says which one is done.
+fn save_for_ever(path: &Path) -> ! {
+    let mut document = halfvector_graph::file::load(path).unwrap();
+    for number in 0_u64.. {
+        document.name = number.to_string();
+        document.parameters[0].label = Some(number.to_string());
+        halfvector_graph::file::save(path, &document).unwrap();
+        println!("saved {number}");
+    }
+    unreachable!("there is no end of numbers")
+}

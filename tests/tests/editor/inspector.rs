@@ -1,0 +1,194 @@
+//! The inspector: what it sets is in the document, a drag is one step of undo, and what it offers fits the socket.
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use halfvector_editor::{Action, Editor, Options, egui};
+use halfvector_graph::document::{Document, SocketRef};
+use halfvector_graph::edit::Edit;
+use halfvector_graph::value::Value;
+
+use egui::accesskit::Role;
+
+use super::{open, settle};
+
+fn window(selected: &str) -> Harness<'static, Editor> {
+    let mut harness = open(Options::default());
+    settle(&mut harness);
+    select(&mut harness, selected);
+    harness
+}
+
+fn select(harness: &mut Harness<'_, Editor>, id: &str) {
+    harness.state_mut().act(Action::Select(vec![id.to_owned()]));
+    harness.run_steps(2);
+}
+
+fn document<'h>(harness: &'h Harness<'_, Editor>) -> &'h Document {
+    harness.state().session().document()
+}
+
+fn value(harness: &Harness<'_, Editor>, node: &str, socket: &str) -> Option<Value> {
+    harness.state().session().value(&SocketRef::new(node, socket)).cloned()
+}
+
+fn press(harness: &mut Harness<'_, Editor>, key: egui::Key, times: usize) {
+    for _ in 0..times {
+        harness.key_press(key);
+        harness.step();
+    }
+}
+
+fn write_into(harness: &mut Harness<'_, Editor>, label: &str, text: &str) {
+    harness.get_by_role_and_label(Role::TextInput, label).focus();
+    harness.step();
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.step();
+    harness.get_by_role_and_label(Role::TextInput, label).type_text(text);
+    harness.run_steps(2);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(2);
+}
+
+#[test]
+fn a_slider_is_one_step_of_undo() {
+    let mut harness = window("chips");
+    let before = document(&harness).clone();
+    harness.get_by_role_and_label(Role::Slider, "gain").focus();
+    // A widget keeps the arrow keys for itself from the second frame on.
+    harness.run_steps(3);
+    press(&mut harness, egui::Key::ArrowRight, 4);
+    let Some(Value::Number(gain)) = value(&harness, "chips", "gain") else { panic!("no number") };
+    assert!(gain > 0.6 && gain < 0.8, "{gain}");
+    harness.state_mut().act(Action::Undo);
+    assert_eq!(*document(&harness), before);
+}
+
+#[test]
+fn a_node_is_renamed_and_its_problem_is_told() {
+    let mut harness = window("chips");
+    write_into(&mut harness, "Label of the node", "Chips of paint");
+    assert_eq!(document(&harness).graph.nodes["chips"].label.as_deref(), Some("Chips of paint"));
+    harness.state_mut().act(Action::Undo);
+    harness.step();
+    assert_eq!(document(&harness).graph.nodes["chips"].label.as_deref(), Some("Where the enamel is gone"));
+}
+
+#[test]
+fn an_input_tells_where_it_comes_from() {
+    let mut harness = window("base_color");
+    harness.get_by_label("Rust · out").click();
+    harness.run_steps(2);
+    assert!(harness.state().session().selection().contains("rust"));
+}
+
+#[test]
+fn a_value_is_reset_and_exposed() {
+    let mut harness = window("grain");
+    let menu = |harness: &mut Harness<'_, Editor>, row: usize, entry: &str| {
+        harness.get_all_by_role_and_label(Role::Button, "…").nth(row).unwrap().click();
+        harness.run_steps(3);
+        // The menu lies above the rest.
+        harness.get_all_by_label(entry).last().unwrap().click();
+        harness.run_steps(3);
+    };
+    let place = |harness: &Harness<'_, Editor>, socket: &str| {
+        let node = &document(harness).graph.nodes["grain"].node;
+        let def = halfvector_graph::library::Library::standard().get(node).unwrap();
+        def.inputs.iter().position(|input| input.name == socket).unwrap()
+    };
+    let scale = place(&harness, "scale");
+    assert_eq!(value(&harness, "grain", "scale"), Some(Value::Number(14.0)));
+    menu(&mut harness, scale, "Reset to default");
+    assert_eq!(value(&harness, "grain", "scale"), None);
+    menu(&mut harness, scale, "Expose as parameter");
+    let parameter = document(&harness).parameter("scale").unwrap();
+    assert_eq!(parameter.socket, SocketRef::new("grain", "scale"));
+    write_into(&mut harness, "name of the parameter", "rust_scale");
+    assert!(document(&harness).parameter("rust_scale").is_some());
+    menu(&mut harness, scale, "Stop exposing");
+    assert!(document(&harness).parameter("rust_scale").is_none());
+    while harness.state().session().steps()[0].is_some() {
+        harness.state_mut().act(Action::Undo);
+    }
+    assert!(!harness.state().session().is_unsaved());
+}
+
+#[test]
+fn a_colour_is_written_as_its_code() {
+    let mut harness = window("base_color");
+    write_into(&mut harness, "b", "#ff8000");
+    let Some(Value::Vec3([r, g, b])) = value(&harness, "base_color", "b") else { panic!("no colour") };
+    // IEC 61966-2-1: 128 / 255 is 0.2158605.
+    assert!((r - 1.0).abs() < 1e-6 && (g - 0.215_860_5).abs() < 1e-6 && b == 0.0, "{r} {g} {b}");
+}
+
+#[test]
+fn curves_and_ramps_are_bent_by_hand() {
+    let mut harness = window("rust");
+    let stop = harness.get_by_label("Stop a").rect().center();
+    harness.drag_at(stop);
+    harness.step();
+    harness.hover_at(stop + egui::vec2(30.0, 0.0));
+    harness.step();
+    harness.drop_at(stop + egui::vec2(30.0, 0.0));
+    harness.run_steps(2);
+    let Some(Value::Number(position)) = value(&harness, "rust", "position_a") else { panic!("no number") };
+    assert!(position > -0.34, "{position}");
+
+    let node = halfvector_graph::document::Node::new("math/curve");
+    harness.state_mut().act(Action::edit("Add", Edit::AddNode { id: "bend".into(), node }));
+    select(&mut harness, "bend");
+    harness.get_by_label("Point 3 of the curve").focus();
+    // A widget keeps the arrow keys for itself from the second frame on.
+    harness.run_steps(3);
+    press(&mut harness, egui::Key::ArrowUp, 3);
+    let Some(Value::Number(middle)) = value(&harness, "bend", "at_50") else { panic!("no number") };
+    assert!((middle - 0.53).abs() < 1e-5, "{middle}");
+}
+
+#[test]
+fn a_metal_becomes_another_one() {
+    let mut harness = window("surface");
+    let node = halfvector_graph::document::Node::new("optics/gold");
+    harness.state_mut().act(Action::edit("Add", Edit::AddNode { id: "metal".into(), node }));
+    let link = halfvector_graph::document::Link::new(
+        SocketRef::new("metal", "color"),
+        SocketRef::new("surface", "base_color"),
+    );
+    harness.state_mut().act(Action::edit("Link", Edit::AddLink { link: link.clone() }));
+    select(&mut harness, "metal");
+    harness.get_by_role_and_label(Role::ComboBox, "Metal").click();
+    harness.run_steps(3);
+    harness.get_by_label("Copper").click();
+    harness.run_steps(3);
+    assert_eq!(document(&harness).graph.nodes["metal"].node, "optics/copper");
+    assert!(document(&harness).graph.links.contains(&link));
+    assert!(harness.query_by_label("No problems").is_some() || !harness.state().session().problems().is_empty());
+}
+
+#[test]
+fn the_material_itself_is_set_when_nothing_is_selected() {
+    let mut harness = window("chips");
+    harness.state_mut().act(Action::Select(Vec::new()));
+    harness.run_steps(2);
+    write_into(&mut harness, "Name of the material", "Old enamel");
+    assert_eq!(document(&harness).name, "Old enamel");
+    let names = |harness: &Harness<'_, Editor>| {
+        document(harness).parameters.iter().map(|parameter| parameter.name.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(names(&harness), ["enamel_color", "enamel_roughness"]);
+    harness.get_all_by_role_and_label(Role::Button, "⏷").next().unwrap().click();
+    harness.run_steps(3);
+    assert_eq!(names(&harness), ["enamel_roughness", "enamel_color"]);
+}
+
+#[test]
+fn several_nodes_are_deleted_together() {
+    let mut harness = window("chips");
+    harness.state_mut().act(Action::Select(vec!["chips".into(), "grain".into()]));
+    harness.run_steps(2);
+    harness.get_by_role_and_label(Role::Button, "Delete").click();
+    harness.run_steps(2);
+    let nodes = &document(&harness).graph.nodes;
+    assert!(!nodes.contains_key("chips") && !nodes.contains_key("grain"));
+}
