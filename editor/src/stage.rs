@@ -173,6 +173,13 @@ impl Default for Stage {
     }
 }
 
+impl Stage {
+    /// The lamps that are on, as the scene has them.
+    pub fn lights(&self) -> Vec<Light> {
+        self.lamps.iter().filter(|lamp| lamp.is_on).map(Lamp::light).collect()
+    }
+}
+
 impl Orbit {
     /// The orbit that a camera is on; its roll is lost.
     pub fn of(camera: &Camera) -> Orbit {

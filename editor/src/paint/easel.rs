@@ -43,8 +43,7 @@ impl Easel {
             first.document.clone_from(&shot.document);
             first.directory.clone_from(&shot.directory);
         }
-        let lights = stage.lamps.iter().filter(|lamp| lamp.is_on);
-        self.scene.lights = lights.map(crate::stage::Lamp::light).collect();
+        self.scene.lights = stage.lights();
         self.scene.camera = stage.orbit.camera();
         self.light = shot.light.as_ref().map(|light| light.baked.clone());
         self.scene.environment = match &shot.light {

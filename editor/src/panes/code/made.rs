@@ -68,7 +68,7 @@ pub(super) fn plain_needs() -> Needs {
 /// What the viewport shows.
 pub(crate) fn needs_of(stage: &Stage) -> Needs {
     let scene = Scene {
-        lights: stage.lights.clone(),
+        lights: stage.lights(),
         environment: stage.environment.clone(),
         environment_rotation: stage.environment_rotation,
         methods: stage.methods.clone(),
