@@ -2,6 +2,7 @@
 
 use halfvector_graph::check::{Problem, Severity, check, node_label};
 use halfvector_graph::document::Document;
+use halfvector_graph::flatten::flatten;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::Needs;
@@ -28,6 +29,9 @@ pub fn shader(document: &Document, library: &Library, needs: &Needs, fold: Fold)
     let index = Index::standard();
     // check
     no_errors(check(document, library))?;
+    // take groups apart
+    let flat = flatten(document, library)?;
+    let (document, library) = (flat.document.as_ref(), &flat.library);
     // resolve types
     let types = types::resolve(document, library)?;
     // lower, and what is constant whatever is folded
@@ -61,6 +65,9 @@ pub fn material(document: &Document, library: &Library, methods: &Methods) -> Re
     let index = Index::standard();
     // check
     no_errors(check(document, library))?;
+    // take groups apart
+    let flat = flatten(document, library)?;
+    let (document, library) = (flat.document.as_ref(), &flat.library);
     // resolve types
     let types = types::resolve(document, library)?;
     // lower
@@ -112,6 +119,7 @@ fn no_faults(
         let node = node.map(|node| program.nodes[node].id.clone());
         Problem {
             severity: Severity::Error,
+            group: None,
             node_label: node.as_ref().map(|id| node_label(&document.graph, library, id)),
             node,
             socket: None,

@@ -3,8 +3,10 @@
 mod check;
 mod edit;
 mod file;
+mod group;
 mod large;
 mod library;
+mod operation;
 mod resolve;
 
 use std::sync::OnceLock;

@@ -123,10 +123,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
 }
 
 fn as_json(found: &Found) -> serde_json::Value {
-    let Problem { severity, node, node_label, socket, message } = &found.problem;
+    let Problem { severity, group, node, node_label, socket, message } = &found.problem;
     json!({
         "file": found.file.display().to_string(),
         "severity": severity,
+        "group": group,
         "node": node,
         "node_label": node_label,
         "socket": socket,
@@ -210,7 +211,7 @@ fn problems(material: &SceneMaterial) -> Vec<Problem> {
 }
 
 fn of_document(message: String) -> Problem {
-    Problem { severity: Severity::Error, node: None, node_label: None, socket: None, message }
+    Problem { severity: Severity::Error, group: None, node: None, node_label: None, socket: None, message }
 }
 
 /// Makes and validates the shader for one light of each kind and an environment.

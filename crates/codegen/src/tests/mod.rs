@@ -2,6 +2,7 @@
 
 mod figures;
 mod folding;
+mod groups;
 mod hostile;
 mod nodes;
 mod only_needed;

@@ -8,7 +8,9 @@ use std::collections::HashMap;
 
 use serde_json::{Map, Value as Plain};
 
+use super::GroupFile;
 use super::read::parameter_key_of_plain;
+use crate::FORMAT_VERSION;
 use crate::document::{Document, Parameter, SocketRef, SurfaceSettings};
 use graph::kept_list;
 use value::{number, numbers, plain_json, push_unknown, quoted};
@@ -25,7 +27,7 @@ pub fn to_json(document: &Document) -> String {
     if let Some(surface) = surface_json(document) {
         sections.push(format!("  \"surface\": {surface}"));
     }
-    let groups = group::lines(document);
+    let groups = group::lines(&document.groups, document.unknown.get("groups"));
     if !groups.is_empty() {
         sections.push(block("groups", '{', '}', groups, 2));
     }
@@ -35,6 +37,16 @@ pub fn to_json(document: &Document) -> String {
             sections.push(format!("  {}: {}", quoted(key), plain_json(value)));
         }
     }
+    format!("{{\n{}\n}}\n", sections.join(",\n"))
+}
+
+/// A group's file as text.
+pub fn group_to_json(file: &GroupFile) -> String {
+    let sections = [
+        format!("  \"halfvector\": {FORMAT_VERSION}"),
+        format!("  \"group\": {}", quoted(&file.group)),
+        block("groups", '{', '}', group::lines(&file.groups, None), 2),
+    ];
     format!("{{\n{}\n}}\n", sections.join(",\n"))
 }
 
