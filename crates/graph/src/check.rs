@@ -17,10 +17,11 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::FORMAT_VERSION;
-use crate::document::{AlphaMode, Document, Graph, NodeId};
+use crate::document::{AlphaMode, Document, Graph, NodeId, function_of};
 use crate::flatten::{self, Flat, FlattenError, find, flatten};
 use crate::group::{Extents, extents};
 use crate::library::Library;
+use crate::library::custom::read_function;
 use crate::node_def::NodeDef;
 use crate::resolve::{Types, resolve_in};
 use crate::value::SocketType;
@@ -234,6 +235,7 @@ impl<'a> Checker<'a> {
                 format!("the document's field `{field}` has parts that this program does not know; they are kept when it saves"),
             );
         }
+        self.functions();
         let settings = document.surface;
         if !(0.0..=1.0).contains(&settings.alpha_cutoff) {
             self.of_document(
@@ -245,6 +247,19 @@ impl<'a> Checker<'a> {
             );
         }
         self.view();
+    }
+
+    /// What is wrong with the document's own WGSL, each function once.
+    fn functions(&mut self) {
+        let graphs = self.document.groups.values().map(|group| &group.graph).chain([&self.document.graph]);
+        let used: HashSet<&str> =
+            graphs.flat_map(|graph| graph.nodes.values()).filter_map(|node| function_of(&node.node)).collect();
+        for (id, text) in &self.document.functions {
+            if let Err(e) = read_function(id, text) {
+                let severity = if used.contains(id.as_str()) { Severity::Error } else { Severity::Warning };
+                self.of_document(severity, format!("the function `{}`, {e}", words::one_line(id)));
+            }
+        }
     }
 
     /// Places that are no numbers.

@@ -87,6 +87,8 @@ pub struct GroupFile {
     pub group: String,
     /// That group and those that it needs, by id.
     pub groups: BTreeMap<String, Group>,
+    /// The functions that they need, by id.
+    pub functions: BTreeMap<String, String>,
 }
 
 /// Reads a document from a file.

@@ -92,6 +92,7 @@ pub fn flatten<'d>(document: &'d Document, library: &Library) -> Result<Flat<'d>
         name: document.name.clone(),
         graph,
         groups: Default::default(),
+        functions: document.functions.clone(),
         parameters: document.parameters.clone(),
         surface: document.surface,
         unknown: document.unknown.clone(),

@@ -5,6 +5,7 @@
 //! `T` of a generic file gets a name of its own there; the module is parsed for two of `T`'s types, and what differs is generic.
 //! Nothing is validated beyond naga's parser and no text is kept: the code generator links from the same files.
 
+pub mod custom;
 mod grammar;
 mod node;
 pub(crate) mod own;
@@ -111,9 +112,11 @@ impl Library {
         self.layers.iter().flat_map(|layer| layer.values())
     }
 
-    /// This library with the nodes that a document brings along: its groups. For the document's top level.
+    /// This library with the nodes that a document brings along: its groups, and its functions as far as they are sound. For the document's top level.
     pub fn of(&self, document: &Document) -> Library {
-        self.with(document.groups.iter().map(|(id, group)| own::group(id, group)))
+        let functions = document.functions.iter().filter_map(|(id, text)| custom::read_function(id, text).ok());
+        let functions = functions.map(|function| function.def.clone());
+        self.with(document.groups.iter().map(|(id, group)| own::group(id, group)).chain(functions))
     }
 
     /// A library that [`Library::of`] gave, with the nodes of a group's inside: [`GROUP_INPUT`](crate::document::GROUP_INPUT) and

@@ -11,7 +11,8 @@ use halfvector_shaders::{TokenKind, tokens};
 
 use super::{document, environment, exported, made, material, sun};
 use crate::reflection::{Resource, UniformSource};
-use crate::{CodegenError, Fold, Origin, input_value, shader};
+use crate::target::{export, target};
+use crate::{CodegenError, Fold, Origin, input_value, line_map, shader};
 
 /// A shader without its comments, and with its names numbered in the order in which they come.
 fn without_names(wgsl: &str) -> String {
@@ -130,6 +131,24 @@ fn lines_and_names_say_where_in_which_group() {
     assert!(shader.wgsl.contains("let rust_more ="), "{}", shader.wgsl);
     let of_node = |id: &str| shader.segments.iter().any(|s| s.origin == Origin::Node(id.into()));
     assert!(of_node("first/grain/noise") && of_node("second/dye") && !of_node("first/dye"));
+}
+
+/// Each line that the map names is the line of what it names.
+#[test]
+fn the_line_map_names_lines() {
+    let shader = exported(&grouped(""), &sun());
+    let lines: Vec<&str> = shader.wgsl.lines().collect();
+    let map = line_map(&shader);
+    let of = |origin: &Origin| map.iter().find(|l| l.origin == *origin).map(|l| lines[l.first - 1..l.last].to_vec());
+    let noise = of(&Origin::Node("first/grain/noise".into())).expect("its line");
+    assert!(noise.len() == 1 && noise[0].ends_with("// First \u{25b8} grain \u{25b8} Noise"), "{noise:?}");
+    let file = of(&Origin::Library("nodes/procedural/value_noise.wgsl".into())).expect("its lines");
+    assert_eq!(file.first(), Some(&"// ---- nodes/procedural/value_noise.wgsl"));
+    assert!(map.windows(2).all(|pair| pair[0].last < pair[1].first), "in order, without overlap");
+    let files = export(&shader, target("wgsl").expect("a target"), "x").expect("files");
+    let json = files.iter().find(|file| file.name == "x.json").expect("the reflection");
+    let json: serde_json::Value = serde_json::from_slice(&json.bytes).expect("JSON");
+    assert_eq!(json["lines"].as_array().map(Vec::len), Some(map.len()));
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Whole documents through codegen.
 
+mod cost;
+mod custom;
 mod figures;
 mod folding;
 mod groups;

@@ -1,7 +1,7 @@
 //! Problems of single nodes: names, definitions, values, and nodes that reach nothing.
 
 use super::{Checker, Severity, words};
-use crate::document::{GROUP_INPUT, GROUP_OUTPUT, Node, NodeId, group_of, is_name};
+use crate::document::{GROUP_INPUT, GROUP_OUTPUT, Node, NodeId, function_of, group_of, is_name};
 use crate::node_def::{Default, Input, NodeDef};
 use crate::value::{ImageRef, SocketType, Value};
 
@@ -67,6 +67,14 @@ fn unknown_definition(checker: &mut Checker, id: &str, node: &Node, search: bool
         };
         let message = format!("there is no group `{group}` in this document; {remedy}");
         return checker.wrong(id, None, message);
+    }
+    if let Some(function) = function_of(&node.node) {
+        // What is wrong with a function is told with it.
+        if !checker.document.functions.contains_key(function) {
+            let message = format!("there is no function `{function}` in this document; write it, or remove the node");
+            checker.wrong(id, None, message);
+        }
+        return;
     }
     if node.node == GROUP_INPUT || node.node == GROUP_OUTPUT {
         return checker.wrong(id, None, format!("`{}` stands inside groups only; remove the node", node.node));

@@ -11,7 +11,7 @@ use crate::FORMAT_VERSION;
 use crate::document::{AlphaMode, Document, Parameter, SocketRef, SurfaceSettings};
 use crate::json::{self, Json, Member, Spanned};
 use graph::GraphReader;
-use value::{choice, list, members_of, number, object, pair, socket, text, text_of};
+use value::{choice, lines, list, members_of, number, object, pair, socket, text, text_of};
 
 pub(super) use graph::link_of_plain;
 
@@ -71,6 +71,7 @@ fn read_document(root: Spanned) -> Result<Document, Wrong> {
             "parameters" => reader.parameters(&mut document, value)?,
             "surface" => reader.surface(&mut document, value)?,
             "groups" => reader.groups(&mut document, value)?,
+            "functions" => reader.functions(&mut document, value)?,
             _ => {
                 nodes_seen |= key == "nodes";
                 if let Some(value) = graph.section(&key, value)? {
@@ -117,11 +118,14 @@ fn read_group_file(root: Spanned) -> Result<GroupFile, Wrong> {
         match key.as_str() {
             "group" => group = Some(text(value, "group")?),
             "groups" => reader.groups(&mut document, value)?,
+            "functions" => reader.functions(&mut document, value)?,
             _ => {}
         }
     }
     match group {
-        Some(group) if document.groups.contains_key(&group) => Ok(GroupFile { group, groups: document.groups }),
+        Some(group) if document.groups.contains_key(&group) => {
+            Ok(GroupFile { group, groups: document.groups, functions: document.functions })
+        }
         Some(group) => wrong(at, "groups", format!("the group `{group}`, which the file is about, is missing")),
         None => wrong(at, "the file", "the field `group` is missing; it names the group that the file is about"),
     }
@@ -179,6 +183,23 @@ impl Reader {
                 Ok(true) => {}
                 Err(e) if !self.newer => return Err(e),
                 Ok(false) | Err(_) => self.keep_in_object("surface", key, value.json.into_plain()),
+            }
+        }
+        Ok(())
+    }
+
+    fn functions(&mut self, document: &mut Document, value: Spanned) -> Result<(), Wrong> {
+        if self.newer && !matches!(value.json, Json::Object(_)) {
+            self.unknown.insert("functions".into(), value.json.into_plain());
+            return Ok(());
+        }
+        for Member { key, value, .. } in object(value, "functions")? {
+            match lines(&value, &format!("functions.{key}")) {
+                Ok(text) => {
+                    document.functions.insert(key, text);
+                }
+                Err(_) if self.newer => self.keep_in_object("functions", key, value.json.into_plain()),
+                Err(e) => return Err(e),
             }
         }
         Ok(())

@@ -4,7 +4,7 @@ mod graph;
 mod group;
 mod value;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use serde_json::{Map, Value as Plain};
 
@@ -31,9 +31,13 @@ pub fn to_json(document: &Document) -> String {
     if !groups.is_empty() {
         sections.push(block("groups", '{', '}', groups, 2));
     }
+    let functions = function_lines(&document.functions, document.unknown.get("functions"));
+    if !functions.is_empty() {
+        sections.push(block("functions", '{', '}', functions, 2));
+    }
     sections.extend(graph::view(&document.graph, 2));
     for (key, value) in &document.unknown {
-        if !SECTIONS.contains(&key.as_str()) || (key == "groups" && !value.is_object()) {
+        if !SECTIONS.contains(&key.as_str()) || (matches!(key.as_str(), "groups" | "functions") && !value.is_object()) {
             sections.push(format!("  {}: {}", quoted(key), plain_json(value)));
         }
     }
@@ -42,16 +46,19 @@ pub fn to_json(document: &Document) -> String {
 
 /// A group's file as text.
 pub fn group_to_json(file: &GroupFile) -> String {
-    let sections = [
+    let mut sections = vec![
         format!("  \"halfvector\": {FORMAT_VERSION}"),
         format!("  \"group\": {}", quoted(&file.group)),
         block("groups", '{', '}', group::lines(&file.groups, None), 2),
     ];
+    if !file.functions.is_empty() {
+        sections.push(block("functions", '{', '}', function_lines(&file.functions, None), 2));
+    }
     format!("{{\n{}\n}}\n", sections.join(",\n"))
 }
 
 /// Sections of which parts may be kept: what stands under these names in `Document::unknown` is merged into them.
-const SECTIONS: &[&str] = &["parameters", "surface", "groups"];
+const SECTIONS: &[&str] = &["parameters", "surface", "groups", "functions"];
 
 /// A section of lines, indented by `indent`.
 fn block(name: &str, open: char, close: char, lines: Vec<String>, indent: usize) -> String {
@@ -92,6 +99,21 @@ fn parameter_json(parameter: &Parameter, extra: Option<&Map<String, Plain>>) -> 
         push_unknown(&mut fields, extra, &written);
     }
     format!("{{{}}}", fields.join(", "))
+}
+
+/// The functions in order of id, each line of a text in a line of the file.
+fn function_lines(functions: &BTreeMap<String, String>, kept: Option<&Plain>) -> Vec<String> {
+    let mut lines: Vec<(&str, String)> = Vec::new();
+    for (id, text) in functions {
+        let quoted: Vec<String> = text.split('\n').map(quoted).collect();
+        lines.push((id, format!("[\n      {}\n    ]", quoted.join(",\n      "))));
+    }
+    if let Some(Plain::Object(kept)) = kept {
+        let others = kept.iter().filter(|(id, _)| !functions.contains_key(*id));
+        lines.extend(others.map(|(id, raw)| (id.as_str(), plain_json(raw))));
+        lines.sort_by(|a, b| a.0.cmp(b.0));
+    }
+    lines.into_iter().map(|(id, json)| format!("{}: {json}", quoted(id))).collect()
 }
 
 fn surface_json(document: &Document) -> Option<String> {

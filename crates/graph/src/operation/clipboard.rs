@@ -1,8 +1,8 @@
-//! Copy and paste: a selection as the text of a document, with the groups that it needs.
+//! Copy and paste: a selection as the text of a document, with the groups and functions that it needs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::import::{held, import};
+use super::import::{Needed, held, import, needed};
 use super::{Refusal, in_graph, refuse};
 use crate::check::surface_nodes;
 use crate::document::{
@@ -12,7 +12,7 @@ use crate::edit::Edit;
 use crate::file::{from_json, to_json};
 use crate::library::Library;
 
-/// The selected nodes of a graph as text: with the links among them, their places and the groups that they need. Parameters
+/// The selected nodes of a graph as text: with the links among them, their places and the groups and functions that they need. Parameters
 /// stay with the material, the nodes of a group's sockets with the group.
 pub fn copy(document: &Document, group: Option<&str>, nodes: &[NodeId]) -> String {
     let mut copied = Document::new("");
@@ -26,14 +26,8 @@ pub fn copy(document: &Document, group: Option<&str>, nodes: &[NodeId]) -> Strin
     }
     let has = |id: &str| copied.graph.nodes.contains_key(id);
     copied.graph.links = graph.links.iter().filter(|l| has(&l.from.node) && has(&l.to.node)).cloned().collect();
-    let mut open: Vec<&str> = copied.graph.nodes.values().filter_map(|node| group_of(&node.node)).collect();
-    let mut needed = BTreeMap::new();
-    while let Some((id, group)) = open.pop().and_then(|id| document.groups.get_key_value(id)) {
-        if needed.insert(id.clone(), group.clone()).is_none() {
-            open.extend(held(group));
-        }
-    }
-    copied.groups = needed;
+    let Needed { groups, functions } = needed(document, copied.graph.nodes.values());
+    (copied.groups, copied.functions) = (groups, functions);
     to_json(&copied)
 }
 
@@ -62,7 +56,7 @@ pub fn paste(
     if nodes.is_empty() {
         return refuse("what was copied has no nodes that can stand here");
     }
-    let (mut edits, groups) = import(document, &copied.groups)?;
+    let (mut edits, names) = import(document, &copied.groups, &copied.functions);
     let mut ids: BTreeMap<&str, NodeId> = BTreeMap::new();
     let mut taken = BTreeSet::new();
     for (id, _) in &nodes {
@@ -75,12 +69,11 @@ pub fn paste(
     let mut inside = Vec::new();
     for (id, node) in nodes {
         let mut node = node.clone();
-        if let Some(held) = group_of(&node.node) {
-            let held = groups.get(held).map_or(held, String::as_str);
-            if group.is_some_and(|group| reaches(document, held, group)) {
-                return refuse("a group cannot hold itself; paste this node elsewhere");
-            }
-            node.node = format!("group/{held}");
+        node.node = names.definition(&node.node);
+        if let (Some(held), Some(group)) = (group_of(&node.node), group)
+            && reaches(document, held, group)
+        {
+            return refuse("a group cannot hold itself; paste this node elsewhere");
         }
         let new = &ids[id.as_str()];
         inside.push(Edit::AddNode { id: new.clone(), node });

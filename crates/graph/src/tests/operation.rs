@@ -63,7 +63,7 @@ fn a_selection_becomes_a_group_with_its_wires() {
     let inputs = names(&mut group.interface.inputs.iter().map(|i| (i.name.as_str(), format!("{:?}", i.ty))));
     assert_eq!(inputs, ["a: Value(Vec3)", "weight: Value(F32)"], "one wire twice is one input");
     let outputs = names(&mut group.interface.outputs.iter().map(|o| (o.name.as_str(), format!("{:?}", o.ty))));
-    assert_eq!(outputs, ["out: Value(Vec3)", "out_2: Value(Vec3)"]);
+    assert_eq!(outputs, ["out: Vec3", "out_2: Vec3"]);
     assert_eq!(after.parameters[0].socket, socket("two_mixes.weight"), "the parameter goes along");
     assert_eq!(after.graph.nodes["two_mixes"].values["weight"], Value::Number(0.25));
     assert_eq!(after.graph.links.len(), 4);
