@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::Shader;
 use crate::emit::text::Origin;
 use crate::reflection::Resource;
-use crate::validate::{ValidationError, place_of, validate};
+use crate::validate::{ValidationError, validate};
 
 /// Instructions by class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -85,9 +85,8 @@ pub fn cost(shader: &Shader) -> Result<Cost, ValidationError> {
         let mut total = Instructions::default();
         each(&entry.function, &functions, |span, instructions| {
             total.add(instructions);
-            let place = span.to_range().and_then(|range| place_of(shader, range.start));
-            if let Some(Origin::Node(id)) = place.map(|place| place.origin) {
-                nodes.entry(id).or_default().add(instructions);
+            if let Some(Origin::Node(id)) = span.to_range().and_then(|range| origin(shader, range.start)) {
+                nodes.entry(id.clone()).or_default().add(instructions);
             }
         });
         match entry.stage {
@@ -106,6 +105,12 @@ pub fn cost(shader: &Shader) -> Result<Cost, ValidationError> {
         })
         .sum();
     Ok(cost)
+}
+
+/// Where a byte of a shader comes from: its segments lie in order.
+fn origin(shader: &Shader, at: usize) -> Option<&Origin> {
+    let number = shader.segments.partition_point(|segment| segment.end <= at);
+    shader.segments.get(number).map(|segment| &segment.origin)
 }
 
 /// Tells every instruction of a function with its place; a call with all that it does.

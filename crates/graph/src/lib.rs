@@ -1,7 +1,8 @@
 //! The material document: nodes, links, edits, checks, files; node definitions read from WGSL.
 //!
 //! Reading order: `value`, `document` (the plain data), `node_def` and `library` (what a node is and where it comes from), `resolve` and
-//! `check` (what a document means), `edit`, `file`. Nothing here makes a shader, looks at a picture or opens a window.
+//! `check` (what a document means), `group` and `flatten` (groups, and a document without them), `edit`, `operation` (what an editor does in
+//! one step), `file`. Nothing here makes a shader, looks at a picture or opens a window.
 
 pub mod check;
 pub mod context;

@@ -6,7 +6,7 @@
 //! [`MAX_WORK`] times. Textures are read with an explicit level or gradient, since a node may stand in a branch. The names get the
 //! function's id as prefix, so that none shadows anything.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
@@ -21,6 +21,8 @@ use crate::node_def::NodeDef;
 pub const MAX_BYTES: usize = 64 << 10;
 /// Most turns of loops and calls in one evaluation of the node.
 pub const MAX_WORK: u64 = 1 << 16;
+/// Largest number in the head of a loop: far from where a counter would wrap around.
+const MAX_COUNT: u64 = 1 << 20;
 /// Longest array.
 const MAX_ARRAY: u64 = 256;
 
@@ -180,6 +182,7 @@ fn refuse_words(text: &str, code: &[Token]) -> Result<(), CodeError> {
             "loop" | "while" => "a loop that need not end; write `for (var i = 0; i < 8; i++)`",
             "discard" => "a node gives values and cannot discard; feed the surface's opacity instead",
             "ptr" | "atomic" | "override" => "a node works on values only; leave it out",
+            word if word.ends_with("Barrier") => "a node has no others to wait for; leave it out",
             "array" if word(i + 1) == "<" => {
                 if let Some(message) = array_problem(&word, i) {
                     message
@@ -238,7 +241,7 @@ struct Turns {
 
 /// Refuses loops that are not counted, and more turns and calls than [`MAX_WORK`].
 fn work(text: &str, items: &[Item], code: &[Token]) -> Result<(), CodeError> {
-    let constants: BTreeMap<&str, u64> = items
+    let constants: HashMap<&str, u64> = items
         .iter()
         .filter(|item| item.kind == ItemKind::Const)
         .filter_map(|item| {
@@ -246,6 +249,10 @@ fn work(text: &str, items: &[Item], code: &[Token]) -> Result<(), CodeError> {
             Some((item.name.as_str(), integer(value.split(';').next()?.trim())?))
         })
         .collect();
+    // By place, for a local of the same name is another thing.
+    let references = items.iter().flat_map(|item| &item.references);
+    let constants: HashMap<usize, u64> =
+        references.filter_map(|range| Some((range.start, *constants.get(&text[range.clone()])?))).collect();
     let functions: Vec<&Item> = items.iter().filter(|item| item.kind == ItemKind::Fn).collect();
     let number: HashMap<&str, usize> = functions.iter().enumerate().map(|(i, item)| (item.name.as_str(), i)).collect();
     let mut calls: Vec<Vec<(usize, u64)>> = Vec::new();
@@ -292,7 +299,7 @@ fn work(text: &str, items: &[Item], code: &[Token]) -> Result<(), CodeError> {
 fn function_work(
     text: &str,
     code: &[Token],
-    constants: &BTreeMap<&str, u64>,
+    constants: &HashMap<usize, u64>,
     functions: &HashMap<&str, usize>,
 ) -> Result<(u64, Vec<(usize, u64)>), CodeError> {
     let mut loops: Vec<Turns> = Vec::new();
@@ -316,14 +323,17 @@ fn function_work(
 }
 
 /// The turns of the `for` at token `at`: `for (var i = 0; i < 8; i++) {...}`, whose body leaves `i` alone.
-fn for_turns(text: &str, code: &[Token], at: usize, constants: &BTreeMap<&str, u64>) -> Result<Turns, CodeError> {
+fn for_turns(text: &str, code: &[Token], at: usize, constants: &HashMap<usize, u64>) -> Result<Turns, CodeError> {
     let wrong = |i: usize, message: &str| {
         let place = code.get(i).map_or(text.len(), |token| token.start);
         Err(error_at(text, place, message))
     };
     const SHAPE: &str = "a loop counts to a number that stands in the text: `for (var i = 0; i < 8; i++)`";
     let word = |i: usize| code.get(i).map_or("", |token| token.text(text));
-    let number = |i: usize| integer(word(i)).or_else(|| constants.get(word(i)).copied());
+    let number = |i: usize| {
+        let constant = || constants.get(&code.get(i)?.start).copied();
+        integer(word(i)).or_else(constant).filter(|number| *number <= MAX_COUNT)
+    };
     if word(at + 1) != "(" || word(at + 2) != "var" {
         return wrong(at, SHAPE);
     }
@@ -355,7 +365,7 @@ fn for_turns(text: &str, code: &[Token], at: usize, constants: &BTreeMap<&str, u
         },
         _ => return wrong(i, SHAPE),
     };
-    if word(i) != ")" || word(i + 1) != "{" || end > i32::MAX as u64 {
+    if word(i) != ")" || word(i + 1) != "{" {
         return wrong(i, SHAPE);
     }
     let mut depth = 0usize;

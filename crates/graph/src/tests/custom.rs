@@ -111,6 +111,7 @@ fn what_reaches_beyond_a_node_is_refused() {
         refused(&text("return x;", beside), part);
     }
     refused(&text("discard;", ""), "cannot discard");
+    refused(&text("workgroupBarrier(); return x;", ""), "leave it out");
     refused(&text("return fwidth(x);", ""), "compares neighbouring pixels");
     refused(&text("return node_math_mix(x, x, x);", ""), "node_math_mix");
     let sample = "/// Test\n///\n/// A test.\n/// @node custom/test\n/// - image: which [image srgb]\n/// - uv: where [context uv0]\nfn f(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> vec4f { return textureSample(image, image_sampler, uv); }";
@@ -138,14 +139,17 @@ fn what_need_not_end_is_refused() {
         ("for (var i = 0; i < 10; i++) { i--; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { let p = &i; *p = 0; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { if x > 0.0 { i <<= 0u; } }\nreturn x;", "counter is changed"),
-        ("for (var i = 0; i < 2000000000; i++) { }\nreturn x;", "turns of loops and calls"),
+        ("for (var i = 0; i < 1000000; i++) { }\nreturn x;", "turns of loops and calls"),
+        ("for (var i = 0; i < 2147483647; i += 1048576) { }\nreturn x;", COUNTED),
+        ("for (var i = 0; i < 8; i += 2147483647) { }\nreturn x;", COUNTED),
+        ("let N = i32(x);\nfor (var i = 0; i < N; i++) { }\nreturn x;", COUNTED),
         (
             "for (var i = 0; i < 1000; i++) { for (var j = 0; j < 1000; j++) { } }\nreturn x;",
             "turns of loops and calls",
         ),
         ("return f(x);", "is recursive"),
     ] {
-        refused(&text(body, ""), part);
+        refused(&text(body, "const N = 8;\n"), part);
     }
     // Two to the thirtieth calls, without a loop.
     let mut doubling = String::from("fn g0(x: f32) -> f32 { return x; }\n");
