@@ -50,7 +50,7 @@ pub fn paste(
     let has_surface = group.is_some() || !surface_nodes(document, library).is_empty();
     let is_pasted = |node: &Node| {
         let is_socket = node.node == GROUP_INPUT || node.node == GROUP_OUTPUT;
-        !is_socket && !(has_surface && node.node == SURFACE_NODE)
+        !(is_socket || has_surface && node.node == SURFACE_NODE)
     };
     let nodes: Vec<(&NodeId, &Node)> = copied.graph.nodes.iter().filter(|(_, node)| is_pasted(node)).collect();
     if nodes.is_empty() {
