@@ -205,6 +205,7 @@ pub const FILES: &[File] = files![
     "nodes/textures/parallax.wgsl",
     "nodes/textures/triplanar.wgsl",
     "nodes/textures/triplanar_normal.wgsl",
+    "nodes/utility/reroute.wgsl",
     "nodes/vector/angle.wgsl",
     "nodes/vector/combine.wgsl",
     "nodes/vector/cross.wgsl",

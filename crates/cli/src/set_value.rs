@@ -46,6 +46,7 @@ pub(crate) fn set(document: &mut Document, library: &Library, assignment: &Assig
 fn typed(document: &Document, library: &Library, socket: &SocketRef, text: &str) -> Result<Value, String> {
     let missing = || format!("it stands for {socket}, which is missing");
     let node = document.graph.nodes.get(&socket.node).ok_or_else(missing)?;
+    let library = library.of(document);
     let definition = library.get(&node.node).ok_or_else(missing)?;
     let input = definition.inputs.iter().find(|input| input.name == socket.socket).ok_or_else(missing)?;
     match input.ty {

@@ -425,6 +425,20 @@ fn without_a_gpu_the_cpu_draws_and_says_so() {
 }
 
 #[test]
+fn the_cost_of_nodes_is_told() {
+    let folder = Folder::new();
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    std::fs::copy(examples.join("custom-wgsl.material.json"), folder.path("own.material.json")).expect("copied");
+    let text = folder.run(&["check", "--cost", "own.material.json"]).ends(0).stdout;
+    assert!(text.contains("cost, estimated: each pixel ") && text.contains("`Tartan` (tartan): "), "{text}");
+    let json = folder.run(&["check", "--cost", "--format", "json", "own.material.json"]).ends(0).json();
+    let cost = &json["cost"][0];
+    let node = &cost["nodes"].as_array().expect("nodes")[0];
+    assert!(node["node"] == "colors" || node["node"] == "tartan", "{node}");
+    assert!(cost["fragment_total"].as_u64() > node["total"].as_u64(), "{cost}");
+}
+
+#[test]
 fn what_f32_gets_wrong_is_found_and_named() {
     let folder = Folder::new();
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/unstable");

@@ -2,6 +2,7 @@
 
 use halfvector_graph::check::Problem;
 use halfvector_graph::document::NodeId;
+use halfvector_graph::flatten::FlattenError;
 
 /// Why a document gave no shader.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -9,6 +10,9 @@ pub enum CodegenError {
     /// The document has errors.
     #[error("{}", .0.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n"))]
     Problems(Vec<Problem>),
+    /// The document's groups cannot be taken apart.
+    #[error(transparent)]
+    Groups(#[from] FlattenError),
     /// The document has no surface node, or several.
     #[error("the document has no one surface node; add one and wire the material into it")]
     NoSurface,

@@ -3,11 +3,12 @@
 //! Deterministic: the same document, needs and library give the same bytes. It opens no files and no device, and reads no
 //! node positions.
 
-pub mod cost;
+mod cost;
 mod emit;
 mod error;
 mod ir;
 mod layout;
+mod line_map;
 mod link;
 mod names;
 mod passes;
@@ -20,9 +21,11 @@ mod validate;
 #[cfg(test)]
 mod tests;
 
+pub use cost::{Cost, Instructions, NodeCost, cost};
 pub use emit::text::{Origin, Segment};
 pub use error::CodegenError;
 pub use layout::PackError;
+pub use line_map::{Lines, line_map};
 pub use passes::lower::input_value;
 pub use pipeline::{material, shader};
 pub use validate::{Place, Valid, ValidationError, place_of, validate};

@@ -1,9 +1,12 @@
 //! The linker: which items of the library a shader reaches, and their text in it. Items are whole; names are exchanged
 //! only for generic nodes (`T`, and a suffix) and for the methods of a term.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::{Arc, Mutex, OnceLock};
 
+use halfvector_graph::document::{Document, function_of};
+use halfvector_graph::library::custom::read_function;
 use halfvector_graph::method::Methods;
 use halfvector_graph::value::Type;
 use halfvector_shaders::{Item, ItemKind, SliceError, TokenKind, emit, generic_types, slice, tokens};
@@ -29,12 +32,14 @@ pub(crate) struct Index {
     compiled: Mutex<HashMap<Instance, Option<Arc<Compiled>>>>,
 }
 
+#[derive(Clone)]
 struct SourceFile {
-    path: &'static str,
-    source: &'static str,
+    path: Cow<'static, str>,
+    source: Cow<'static, str>,
     generic: bool,
 }
 
+#[derive(Clone)]
 struct IndexItem {
     file: usize,
     item: Item,
@@ -76,8 +81,8 @@ impl Compiled {
 }
 
 /// An item in the shader.
-pub(crate) struct Linked {
-    pub(crate) path: &'static str,
+pub(crate) struct Linked<'i> {
+    pub(crate) path: &'i str,
     pub(crate) text: String,
 }
 
@@ -99,6 +104,18 @@ pub(crate) fn exchanged(methods: &Methods) -> BTreeMap<&'static str, &'static st
     exchanged
 }
 
+impl Clone for Index {
+    fn clone(&self) -> Index {
+        let compiled = self.compiled.lock().map(|compiled| compiled.clone()).unwrap_or_default();
+        Index {
+            files: self.files.clone(),
+            items: self.items.clone(),
+            by_name: self.by_name.clone(),
+            compiled: Mutex::new(compiled),
+        }
+    }
+}
+
 impl Index {
     /// The index of the shader library's files, made once.
     pub(crate) fn standard() -> &'static Index {
@@ -118,21 +135,52 @@ impl Index {
             compiled: Mutex::new(HashMap::new()),
         };
         for file in files.iter().filter(|f| !f.path.starts_with("entry/") || f.path == TRANSFORM_FILE) {
-            let generic = generic_types(file.source).is_some();
-            for item in slice(file.source)? {
-                // `alias T` stands for the type only while the library file is read by itself.
-                if generic && item.kind == ItemKind::Alias && item.name == "T" {
-                    continue;
-                }
-                index.by_name.insert(item.name.clone(), index.items.len());
-                index.items.push(IndexItem { file: index.files.len(), item, inline: None });
-            }
-            index.files.push(SourceFile { path: file.path, source: file.source, generic });
+            index.add(file.path.into(), file.source.into())?;
         }
-        for number in 0..index.items.len() {
-            index.items[number].inline = index.inline_of(number);
-        }
+        index.inline(0);
         Ok(index)
+    }
+
+    /// The library's index with the functions that a document brings along and has nodes of, where it has any.
+    pub(crate) fn of(document: &Document) -> Cow<'static, Index> {
+        let used: BTreeSet<&str> = document.graph.nodes.values().filter_map(|node| function_of(&node.node)).collect();
+        let texts = used.into_iter().filter_map(|id| Some((id, document.functions.get(id)?)));
+        // What is wrong with them is told by the document's check, which comes first.
+        let sound: Vec<_> = texts.filter_map(|(id, text)| Some((id, read_function(id, text).ok()?))).collect();
+        let standard = Index::standard();
+        if sound.is_empty() {
+            return Cow::Borrowed(standard);
+        }
+        let mut index = standard.clone();
+        let first = index.items.len();
+        for (id, function) in sound {
+            if index.add(format!("custom/{id}").into(), function.source.clone().into()).is_err() {
+                break;
+            }
+        }
+        index.inline(first);
+        Cow::Owned(index)
+    }
+
+    fn add(&mut self, path: Cow<'static, str>, source: Cow<'static, str>) -> Result<(), SliceError> {
+        let generic = generic_types(&source).is_some();
+        for item in slice(&source)? {
+            // `alias T` stands for the type only while the library file is read by itself.
+            if generic && item.kind == ItemKind::Alias && item.name == "T" {
+                continue;
+            }
+            self.by_name.insert(item.name.clone(), self.items.len());
+            self.items.push(IndexItem { file: self.files.len(), item, inline: None });
+        }
+        self.files.push(SourceFile { path, source, generic });
+        Ok(())
+    }
+
+    /// Recognises the functions, from a number on, that are one expression.
+    fn inline(&mut self, first: usize) {
+        for number in first..self.items.len() {
+            self.items[number].inline = self.inline_of(number);
+        }
     }
 
     /// Whether the library has an item of this name.
@@ -199,10 +247,10 @@ impl Index {
     }
 
     /// The text of an item in the shader, its doc comments turned into plain ones.
-    pub(crate) fn text(&self, instance: Instance, exchanged: &BTreeMap<&str, &str>) -> Linked {
+    pub(crate) fn text(&self, instance: Instance, exchanged: &BTreeMap<&str, &str>) -> Linked<'_> {
         let this = &self.items[instance.item];
         let file = &self.files[this.file];
-        let text = emit(file.source, &this.item, |name| {
+        let text = emit(&file.source, &this.item, |name| {
             if let Some(generic) = instance.generic {
                 if name == "T" {
                     return Some(generic.wgsl().to_owned());
@@ -215,7 +263,7 @@ impl Index {
             }
             exchanged.get(name).map(|n| (*n).to_owned())
         });
-        Linked { path: file.path, text }
+        Linked { path: &file.path, text }
     }
 
     /// A function as naga reads it, for folding; `None` when naga does not take it by itself. Kept for the next time.

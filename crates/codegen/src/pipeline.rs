@@ -2,6 +2,7 @@
 
 use halfvector_graph::check::{Problem, Severity, check, node_label};
 use halfvector_graph::document::Document;
+use halfvector_graph::flatten::flatten;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::Needs;
@@ -25,9 +26,12 @@ use crate::{CodegenError, Fold, Shader, emit};
 /// The document's problems that keep it from being a shader, all at once; constants that fold to no finite number are
 /// among them.
 pub fn shader(document: &Document, library: &Library, needs: &Needs, fold: Fold) -> Result<Shader, CodegenError> {
-    let index = Index::standard();
     // check
     no_errors(check(document, library))?;
+    // take groups apart
+    let flat = flatten(document, library)?;
+    let (document, library) = (flat.document.as_ref(), &flat.library);
+    let index = &*Index::of(document);
     // resolve types
     let types = types::resolve(document, library)?;
     // lower, and what is constant whatever is folded
@@ -58,9 +62,12 @@ pub fn shader(document: &Document, library: &Library, needs: &Needs, fold: Fold)
 /// # Errors
 /// As for [`shader()`].
 pub fn material(document: &Document, library: &Library, methods: &Methods) -> Result<Shader, CodegenError> {
-    let index = Index::standard();
     // check
     no_errors(check(document, library))?;
+    // take groups apart
+    let flat = flatten(document, library)?;
+    let (document, library) = (flat.document.as_ref(), &flat.library);
+    let index = &*Index::of(document);
     // resolve types
     let types = types::resolve(document, library)?;
     // lower
@@ -112,6 +119,7 @@ fn no_faults(
         let node = node.map(|node| program.nodes[node].id.clone());
         Problem {
             severity: Severity::Error,
+            group: None,
             node_label: node.as_ref().map(|id| node_label(&document.graph, library, id)),
             node,
             socket: None,

@@ -45,6 +45,14 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.origin {
             Origin::Node(id) => write!(f, "node `{id}`, line {}: ", self.line),
+            Origin::Library(file) if file.starts_with("custom/") => {
+                write!(
+                    f,
+                    "the material's own function `{}`, line {} of the shader: ",
+                    &file["custom/".len()..],
+                    self.line
+                )
+            }
             Origin::Library(file) => write!(f, "shaders/{file}, line {} of the shader: ", self.line),
             Origin::Frame => write!(f, "line {} of the shader: ", self.line),
         }

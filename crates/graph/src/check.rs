@@ -3,20 +3,25 @@
 //! An error keeps a shader from being made. A problem of a node that does not reach the surface is a warning, since no shader
 //! needs that node. It opens no files: whether a picture exists is found when it is loaded.
 
-mod links;
+mod groups;
+pub(crate) mod links;
 mod nodes;
 mod parameters;
 mod stages;
-mod words;
+pub(crate) mod words;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, HashSet};
 use std::fmt;
 
 use serde::Serialize;
 
 use crate::FORMAT_VERSION;
-use crate::document::{AlphaMode, Document, Graph, NodeId};
+use crate::document::{AlphaMode, Document, Graph, NodeId, function_of};
+use crate::flatten::{self, Flat, FlattenError, find, flatten};
+use crate::group::{Extents, extents};
 use crate::library::Library;
+use crate::library::custom::read_function;
 use crate::node_def::NodeDef;
 use crate::resolve::{Types, resolve_in};
 use crate::value::SocketType;
@@ -40,9 +45,11 @@ pub enum Severity {
 pub struct Problem {
     /// How bad it is.
     pub severity: Severity,
-    /// The node that it stands at; none for the document as a whole.
+    /// The group that it stands in; none for the top level.
+    pub group: Option<String>,
+    /// The node that it stands at; none for the document, or the group, as a whole.
     pub node: Option<NodeId>,
-    /// The node's label, as the editor shows it.
+    /// The node's label, as the editor shows it; in a group after the group's: "Rust \u{25b8} Noise".
     pub node_label: Option<String>,
     /// The input or output.
     pub socket: Option<String>,
@@ -56,10 +63,16 @@ impl fmt::Display for Problem {
             Severity::Error => "error: ",
             Severity::Warning => "warning: ",
         })?;
-        if let Some(node) = &self.node {
-            match self.node_label.as_deref().filter(|label| label != node) {
-                Some(label) => write!(f, "\u{201c}{}\u{201d} ({node})", words::one_line(label))?,
-                None => write!(f, "{node}")?,
+        let place = match (&self.group, &self.node) {
+            (None, None) => None,
+            (None, Some(node)) => Some(node.clone()),
+            (Some(group), None) => Some(format!("group {group}")),
+            (Some(group), Some(node)) => Some(format!("{node} in group {group}")),
+        };
+        if let Some(place) = place {
+            match self.node_label.as_deref().filter(|label| *label != place) {
+                Some(label) => write!(f, "\u{201c}{}\u{201d} ({place})", words::one_line(label))?,
+                None => f.write_str(&place)?,
             }
             if let Some(socket) = &self.socket {
                 write!(f, ", {socket}")?;
@@ -70,27 +83,55 @@ impl fmt::Display for Problem {
     }
 }
 
-/// All problems of a document: of the document, of its nodes in order of id, of its links and parameters in their order.
+/// All problems of a document: of the document, of its nodes in order of id, of its links and parameters in their order, of its groups
+/// in order of id. `library` is the shipped one; what the document brings along is added here.
 pub fn check(document: &Document, library: &Library) -> Vec<Problem> {
+    let own = library.of(document);
     let wiring = Wiring::new(&document.graph);
-    let types = resolve_in(&document.graph, library, &wiring);
-    let surfaces = surfaces(document, library);
-    let mut checker = Checker { document, library, live: HashSet::new(), wiring: &wiring, types, problems: Vec::new() };
+    let surfaces = surface_nodes(document, library);
+    let mut checker = Checker::new(document, &document.graph, &own, &wiring);
     checker.document();
     checker.cycles();
     checker.surface(&surfaces);
     nodes::check(&mut checker);
     links::check(&mut checker);
     parameters::check(&mut checker);
+    let mut live: Vec<String> = checker.live.iter().map(|id| id.to_string()).collect();
+    live.sort_unstable();
+    let extents = extents(document);
     if let [surface] = surfaces.as_slice() {
-        stages::check(&mut checker, surface);
+        checker.size(&live, &extents);
+        match flatten(document, library) {
+            Ok(Flat { document: Cow::Owned(flat), library }) => {
+                checker.problems.extend(in_stages(document, &flat, &library, surface));
+            }
+            // What is wrong with groups is told with them; the top level is looked at by itself.
+            _ => stages::check(&mut checker, surface),
+        }
     }
-    checker.problems
+    let mut problems = checker.problems;
+    problems.extend(groups::check(document, &own, &extents, &live));
+    problems
+}
+
+/// Problems of stages where groups are taken apart, told of the places where the user sees them.
+fn in_stages(document: &Document, flat: &Document, library: &Library, surface: &str) -> Vec<Problem> {
+    let wiring = Wiring::new(&flat.graph);
+    let mut checker = Checker::new(flat, &flat.graph, library, &wiring);
+    checker.live = flat.graph.nodes.keys().map(String::as_str).collect();
+    stages::check(&mut checker, surface);
+    let mut problems = checker.problems;
+    for problem in &mut problems {
+        if let Some((group, node, _)) = problem.node.as_deref().and_then(|path| find(document, path)) {
+            (problem.group, problem.node) = (group.map(str::to_string), Some(node.to_string()));
+        }
+    }
+    problems
 }
 
 /// The document's surface node, if it has exactly one.
 pub fn surface_node<'d>(document: &'d Document, library: &Library) -> Option<&'d str> {
-    match surfaces(document, library).as_slice() {
+    match surface_nodes(document, library).as_slice() {
         [surface] => Some(surface),
         _ => None,
     }
@@ -104,7 +145,8 @@ pub fn node_label(graph: &Graph, library: &Library, id: &str) -> String {
         .unwrap_or_else(|| id.into())
 }
 
-fn surfaces<'d>(document: &'d Document, library: &Library) -> Vec<&'d str> {
+/// The ids of the document's surface nodes.
+pub(crate) fn surface_nodes<'d>(document: &'d Document, library: &Library) -> Vec<&'d str> {
     let is_surface = |def: &NodeDef| def.outputs.iter().any(|output| output.ty == SocketType::Surface);
     let known = document.graph.nodes.iter().filter_map(|(id, node)| Some((id.as_str(), library.get(&node.node)?)));
     known.filter(|(_, def)| is_surface(def)).map(|(id, _)| id).collect()
@@ -112,27 +154,53 @@ fn surfaces<'d>(document: &'d Document, library: &Library) -> Vec<&'d str> {
 
 struct Checker<'a> {
     document: &'a Document,
+    /// The graph that is looked at: the document's, or a group's inside.
+    graph: &'a Graph,
+    /// The group that it is the inside of, and its label.
+    group: Option<(&'a str, &'a str)>,
+    /// The definitions of the graph's nodes.
     library: &'a Library,
     wiring: &'a Wiring<'a>,
     types: Types<'a>,
-    /// The nodes whose problems are errors: those that reach the surface, or all when that is not known.
+    /// The nodes whose problems are errors: those that reach the surface or the group's outputs, or all when that is not known.
     live: HashSet<&'a str>,
+    /// Whether the material uses the graph: what is no part of it can lack nothing.
+    is_used: bool,
     problems: Vec<Problem>,
 }
 
 impl<'a> Checker<'a> {
+    fn new(document: &'a Document, graph: &'a Graph, library: &'a Library, wiring: &'a Wiring<'a>) -> Checker<'a> {
+        let types = resolve_in(graph, library, wiring);
+        let (live, problems) = (HashSet::new(), Vec::new());
+        Checker { document, graph, group: None, library, wiring, types, live, is_used: true, problems }
+    }
+
+    /// A problem of the document, or of the group, as a whole.
     fn of_document(&mut self, severity: Severity, message: impl Into<String>) {
-        self.problems.push(Problem { severity, node: None, node_label: None, socket: None, message: message.into() });
+        let (group, label) = self.group.unzip();
+        self.problems.push(Problem {
+            severity,
+            group: group.map(str::to_string),
+            node: None,
+            node_label: label.map(str::to_string),
+            socket: None,
+            message: message.into(),
+        });
     }
 
     fn label(&self, id: &str) -> String {
-        node_label(&self.document.graph, self.library, id)
+        node_label(self.graph, self.library, id)
     }
 
     fn at(&mut self, severity: Severity, node: &str, socket: Option<&str>, message: impl Into<String>) {
-        let node_label = self.document.graph.nodes.contains_key(node).then(|| self.label(node));
+        let node_label = self.graph.nodes.contains_key(node).then(|| match self.group {
+            Some((_, label)) => format!("{label} \u{25b8} {}", self.label(node)),
+            None => self.label(node),
+        });
         self.problems.push(Problem {
             severity,
+            group: self.group.map(|(id, _)| id.to_string()),
             node: Some(node.into()),
             node_label,
             socket: socket.map(str::to_string),
@@ -167,6 +235,7 @@ impl<'a> Checker<'a> {
                 format!("the document's field `{field}` has parts that this program does not know; they are kept when it saves"),
             );
         }
+        self.functions();
         let settings = document.surface;
         if !(0.0..=1.0).contains(&settings.alpha_cutoff) {
             self.of_document(
@@ -177,8 +246,35 @@ impl<'a> Checker<'a> {
                 ),
             );
         }
-        for (id, _) in document.graph.layout.iter().filter(|(_, position)| position.iter().any(|x| !x.is_finite())) {
+        self.view();
+    }
+
+    /// What is wrong with the document's own WGSL, each function once.
+    fn functions(&mut self) {
+        let graphs = self.document.groups.values().map(|group| &group.graph).chain([&self.document.graph]);
+        let used: HashSet<&str> =
+            graphs.flat_map(|graph| graph.nodes.values()).filter_map(|node| function_of(&node.node)).collect();
+        for (id, text) in &self.document.functions {
+            if let Err(e) = read_function(id, text) {
+                let severity = if used.contains(id.as_str()) { Severity::Error } else { Severity::Warning };
+                self.of_document(severity, format!("the function `{}`, {e}", words::one_line(id)));
+            }
+        }
+    }
+
+    /// Places that are no numbers.
+    fn view(&mut self) {
+        let graph = self.graph;
+        for (id, _) in graph.layout.iter().filter(|(_, position)| position.iter().any(|x| !x.is_finite())) {
             self.warn(id, None, "its position in the editor is no number; move the node");
+        }
+        let frames = graph.frames.iter().map(|(id, frame)| ("frame", id, &frame.rect));
+        let comments = graph.comments.iter().map(|(id, comment)| ("comment", id, &comment.rect));
+        for (what, id, rect) in frames.chain(comments) {
+            if rect.position.iter().chain(&rect.size).any(|x| !x.is_finite()) {
+                let message = format!("the place of the {what} `{id}` is no number; move it or remove it");
+                self.of_document(Severity::Warning, message);
+            }
         }
     }
 
@@ -196,9 +292,24 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Too many nodes, or groups too deep in each other.
+    fn size(&mut self, live: &[String], extents: &Extents) {
+        let message = match flatten::count(self.document, live, extents) {
+            Ok(nodes) if nodes <= MAX_LIVE_NODES => return,
+            Ok(nodes) if nodes == live.len() => format!(
+                "{nodes} nodes reach the surface; no driver takes a shader of more than {MAX_LIVE_NODES}: bake parts into pictures"
+            ),
+            Ok(nodes) => FlattenError::TooMany(nodes).to_string(),
+            Err(e @ FlattenError::TooDeep) => e.to_string(),
+            // Told with the groups and with the node.
+            Err(_) => return,
+        };
+        self.of_document(Severity::Error, message);
+    }
+
     /// Finds the live nodes, and reports what keeps the document from having a surface.
     fn surface(&mut self, surfaces: &[&'a str]) {
-        let all = || self.document.graph.nodes.keys().map(String::as_str).collect();
+        let all = || self.graph.nodes.keys().map(String::as_str).collect();
         match surfaces {
             [surface] => match self.wiring.order(&[surface]) {
                 Ok(order) => self.live = order.into_iter().collect(),
@@ -221,13 +332,6 @@ impl<'a> Checker<'a> {
                     self.at(Severity::Error, other, None, message);
                 }
             }
-        }
-        if surfaces.len() == 1 && self.live.len() > MAX_LIVE_NODES {
-            let message = format!(
-                "{} nodes reach the surface; no driver takes a shader of more than {MAX_LIVE_NODES}: bake parts into pictures",
-                self.live.len()
-            );
-            self.of_document(Severity::Error, message);
         }
         if let [surface] = surfaces {
             self.opacity(surface);

@@ -9,7 +9,9 @@ use std::collections::BTreeMap;
 use crate::FORMAT_VERSION;
 
 pub use graph::{Comment, Frame, Graph, Link, Node, Rect, SocketRef, free_name};
-pub use group::{GROUP_INPUT, GROUP_OUTPUT, Group, GroupInput, GroupOutput, Interface, group_of, is_group_id};
+pub use group::{
+    GROUP_INPUT, GROUP_OUTPUT, Group, GroupInput, GroupOutput, Interface, function_of, group_of, is_group_id,
+};
 
 /// Stable name of a node in a document: letters, digits and `_`, first a letter.
 pub type NodeId = String;
@@ -25,6 +27,8 @@ pub struct Document {
     pub graph: Graph,
     /// Groups of nodes by id: letters, digits and `_`, first a letter.
     pub groups: BTreeMap<String, Group>,
+    /// WGSL functions of the user's by id: nodes of the definition `custom/<id>`. See [`crate::library::custom`].
+    pub functions: BTreeMap<String, String>,
     /// Inputs of the top level's nodes that a user of the material may change, in the order shown.
     pub parameters: Vec<Parameter>,
     /// What the rasteriser must know.
@@ -97,6 +101,7 @@ impl Document {
             name: name.into(),
             graph: Graph::default(),
             groups: BTreeMap::new(),
+            functions: BTreeMap::new(),
             parameters: Vec::new(),
             surface: SurfaceSettings::default(),
             unknown: serde_json::Map::new(),

@@ -167,6 +167,13 @@ pub enum Edit {
         /// From now on.
         interface: Interface,
     },
+    /// Adds, changes or removes a WGSL function.
+    SetFunction {
+        /// Which.
+        id: String,
+        /// Its text; none to remove it.
+        text: Option<String>,
+    },
     /// An edit of a group's inside: of its nodes, links and view.
     In {
         /// Which group.
@@ -290,6 +297,13 @@ fn of_document(document: &mut Document, edit: &Edit) -> Result<Edit, EditError> 
             let group = document.groups.get_mut(id).ok_or_else(|| EditError::NoGroup(id.clone()))?;
             let old = std::mem::replace(&mut group.interface, interface.clone());
             Ok(Edit::SetInterface { group: id.clone(), interface: old })
+        }
+        Edit::SetFunction { id, text } => {
+            let old = match text {
+                Some(text) => document.functions.insert(id.clone(), text.clone()),
+                None => document.functions.remove(id),
+            };
+            Ok(Edit::SetFunction { id: id.clone(), text: old })
         }
         Edit::In { .. } | Edit::Many(_) => apply(document, edit),
         edit => graph::apply(&mut document.graph, edit),

@@ -1,4 +1,4 @@
-//! `*.material.json`: reading and writing documents as text, and files replaced in one step.
+//! `*.material.json` and `*.group.json`: reading and writing documents as text, and files replaced in one step.
 //!
 //! The writer's order is fixed and each node and link has a line, so that a change in the editor is a small diff. What this
 //! version does not know (fields, and whole nodes, links or values of a newer version) stays in the document's `unknown` maps and is
@@ -7,14 +7,15 @@
 mod read;
 mod write;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use crate::document::Document;
+use crate::document::{Document, Group};
 
-pub use read::from_json;
-pub use write::to_json;
+pub use read::{from_json, group_from_json};
+pub use write::{group_to_json, to_json};
 
 /// Largest text that is read, in bytes.
 pub const MAX_BYTES: usize = 64 << 20;
@@ -79,6 +80,17 @@ pub enum FileError {
     },
 }
 
+/// A group with the groups that it holds: what a `*.group.json` has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroupFile {
+    /// Id of the group that it is about.
+    pub group: String,
+    /// That group and those that it needs, by id.
+    pub groups: BTreeMap<String, Group>,
+    /// The functions that they need, by id.
+    pub functions: BTreeMap<String, String>,
+}
+
 /// Reads a document from a file.
 pub fn load(path: &Path) -> Result<Document, FileError> {
     load_with_bytes(path).map(|(document, _)| document)
@@ -87,6 +99,15 @@ pub fn load(path: &Path) -> Result<Document, FileError> {
 /// Reads a document from a file, and returns the bytes that it was read from: an editor tells by them whether others have
 /// changed the file since.
 pub fn load_with_bytes(path: &Path) -> Result<(Document, Vec<u8>), FileError> {
+    load_as(path, from_json)
+}
+
+/// Reads a group from a file.
+pub fn load_group(path: &Path) -> Result<GroupFile, FileError> {
+    load_as(path, group_from_json).map(|(group, _)| group)
+}
+
+fn load_as<T>(path: &Path, read: impl FnOnce(&str) -> Result<T, FileError>) -> Result<(T, Vec<u8>), FileError> {
     let in_file = |source| FileError::InFile { path: path.into(), source: Box::new(source) };
     let read_error = |source| FileError::Read { path: path.into(), source };
     let mut bytes = Vec::new();
@@ -99,13 +120,18 @@ pub fn load_with_bytes(path: &Path) -> Result<(Document, Vec<u8>), FileError> {
         let line = bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
         in_file(FileError::NotText { line })
     })?;
-    let document = from_json(text).map_err(in_file)?;
-    Ok((document, bytes))
+    let what = read(text).map_err(in_file)?;
+    Ok((what, bytes))
 }
 
 /// Writes a document to a file; the old file stays whole until the new one stands.
 pub fn save(path: &Path, document: &Document) -> Result<(), FileError> {
     replace(path, to_json(document).as_bytes()).map_err(|source| FileError::Write { path: path.into(), source })
+}
+
+/// Writes a group to a file, as [`save`] does a document.
+pub fn save_group(path: &Path, group: &GroupFile) -> Result<(), FileError> {
+    replace(path, group_to_json(group).as_bytes()).map_err(|source| FileError::Write { path: path.into(), source })
 }
 
 /// Writes a file whole or not at all: into a temporary file of the same folder, which then takes the name. A link is

@@ -1,7 +1,8 @@
 //! The material document: nodes, links, edits, checks, files; node definitions read from WGSL.
 //!
 //! Reading order: `value`, `document` (the plain data), `node_def` and `library` (what a node is and where it comes from), `resolve` and
-//! `check` (what a document means), `edit`, `file`. Nothing here makes a shader, looks at a picture or opens a window.
+//! `check` (what a document means), `group` and `flatten` (groups, and a document without them), `edit`, `operation` (what an editor does in
+//! one step), `file`. Nothing here makes a shader, looks at a picture or opens a window.
 
 pub mod check;
 pub mod context;
@@ -9,11 +10,14 @@ pub mod docs;
 pub mod document;
 pub mod edit;
 pub mod file;
+pub mod flatten;
+pub mod group;
 mod json;
 pub mod library;
 pub mod method;
 pub mod needs;
 pub mod node_def;
+pub mod operation;
 pub mod resolve;
 pub mod value;
 pub mod wiring;

@@ -5,24 +5,28 @@
 //! `T` of a generic file gets a name of its own there; the module is parsed for two of `T`'s types, and what differs is generic.
 //! Nothing is validated beyond naga's parser and no text is kept: the code generator links from the same files.
 
+pub mod custom;
 mod grammar;
 mod node;
+pub(crate) mod own;
 mod signature;
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use halfvector_shaders::{Item, ItemKind, TokenKind, tokens};
 
+use crate::document::{Document, Group};
 use crate::node_def::NodeDef;
 use crate::value::Type;
 use signature::Signatures;
 
-/// The nodes that a document can be made of.
+/// The nodes that a graph can be made of. Cloning is cheap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Library {
-    nodes: BTreeMap<String, NodeDef>,
+    /// The shipped nodes, then those of a document, then those of a group's inside.
+    layers: Vec<Arc<BTreeMap<String, NodeDef>>>,
 }
 
 /// What is wrong with the files of a library: everything that was found.
@@ -82,30 +86,53 @@ impl Library {
             return Err(LibraryError { problems });
         }
         let signatures = Signatures::read(&sources).map_err(|problem| LibraryError { problems: vec![problem] })?;
-        let mut library = Library::default();
+        let mut nodes: BTreeMap<String, NodeDef> = BTreeMap::new();
         let mut taken = Vec::new();
         for source in &sources {
             for def in node::read_nodes(source, &signatures, &mut taken, &mut problems) {
-                if let Some(first) = library.nodes.get(&def.id) {
+                if let Some(first) = nodes.get(&def.id) {
                     let message = format!("the node `{}` stands in {} already", def.id, first.file);
                     problems.push(LibraryProblem { file: source.path.into(), line: 1, message });
                 } else {
-                    library.nodes.insert(def.id.clone(), def);
+                    nodes.insert(def.id.clone(), def);
                 }
             }
         }
         node::refuse_forgotten(&sources, &taken, &mut problems);
-        if problems.is_empty() { Ok(library) } else { Err(LibraryError { problems }) }
+        if problems.is_empty() { Ok(Library { layers: vec![Arc::new(nodes)] }) } else { Err(LibraryError { problems }) }
     }
 
     /// The node with this id, such as `math/mix`.
     pub fn get(&self, id: &str) -> Option<&NodeDef> {
-        self.nodes.get(id)
+        self.layers.iter().rev().find_map(|layer| layer.get(id))
     }
 
-    /// All nodes in order of id.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = &NodeDef> {
-        self.nodes.values()
+    /// All nodes: the shipped ones in order of id, then those of a document.
+    pub fn iter(&self) -> impl Iterator<Item = &NodeDef> {
+        self.layers.iter().flat_map(|layer| layer.values())
+    }
+
+    /// This library with the nodes that a document brings along: its groups, and its functions as far as they are sound. For the document's top level.
+    pub fn of(&self, document: &Document) -> Library {
+        let functions = document.functions.iter().filter_map(|(id, text)| custom::read_function(id, text).ok());
+        let functions = functions.map(|function| function.def.clone());
+        self.with(document.groups.iter().map(|(id, group)| own::group(id, group)).chain(functions))
+    }
+
+    /// A library that [`Library::of`] gave, with the nodes of a group's inside: [`GROUP_INPUT`](crate::document::GROUP_INPUT) and
+    /// [`GROUP_OUTPUT`](crate::document::GROUP_OUTPUT).
+    pub fn inside(&self, group: &Group) -> Library {
+        self.with(own::inside(group).into_iter())
+    }
+
+    /// This library and some nodes more; of equal ids the new one counts.
+    pub(crate) fn with(&self, defs: impl Iterator<Item = NodeDef>) -> Library {
+        let layer: BTreeMap<String, NodeDef> = defs.map(|def| (def.id.clone(), def)).collect();
+        let mut library = self.clone();
+        if !layer.is_empty() {
+            library.layers.push(Arc::new(layer));
+        }
+        library
     }
 }
 

@@ -19,9 +19,9 @@ pub struct NodeDef {
     pub outputs: Vec<Output>,
     /// The types that `T` may be, narrowest first; empty when the node is not generic.
     pub generic: Vec<Type>,
-    /// File of the shader library, such as `nodes/math/mix.wgsl`.
+    /// File of the shader library, such as `nodes/math/mix.wgsl`; empty for a group.
     pub file: String,
-    /// The WGSL function that is the node.
+    /// The WGSL function that is the node; of a group an empty one.
     pub function: Function,
     /// The function for the vertex stage, when it is another one (explicit level instead of implicit derivatives).
     pub vertex_function: Option<Function>,
@@ -29,7 +29,12 @@ pub struct NodeDef {
     pub method_functions: Vec<(String, String, Function)>,
     /// Cheaper functions for a single output: (output name, function).
     pub output_functions: Vec<(String, Function)>,
+    /// Whether each output is the input of the same place, so that the node leaves nothing in a shader.
+    pub forwards: bool,
 }
+
+/// The node that bends a wire: its output is its input.
+pub const REROUTE: &str = "utility/reroute";
 
 /// A WGSL function that computes a node or a part of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +63,8 @@ pub enum Argument {
 pub struct Input {
     /// Name in the document: the argument's.
     pub name: String,
+    /// For people, where it is not the name.
+    pub label: Option<String>,
     /// What it takes.
     pub ty: SocketType,
     /// What it reads when nothing is connected or set.
@@ -86,6 +93,8 @@ pub enum Default {
 pub struct Output {
     /// Name in the document: `out` or the struct member's.
     pub name: String,
+    /// For people, where it is not the name.
+    pub label: Option<String>,
     /// What it gives.
     pub ty: SocketType,
     /// For people.

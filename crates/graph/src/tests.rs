@@ -1,10 +1,13 @@
 //! Tests of the crate as a whole, one file for each room of it, on a small node library of their own.
 
 mod check;
+mod custom;
 mod edit;
 mod file;
+mod group;
 mod large;
 mod library;
+mod operation;
 mod resolve;
 
 use std::sync::OnceLock;
@@ -217,8 +220,10 @@ fn any_document() -> impl Strategy<Value = Document> {
         prop::collection::vec(any_parameter(), 0..4),
         any_settings(),
         prop::collection::btree_map("[gh]", any_group(), 0..2),
+        prop::collection::btree_map("[st]", ".{0,3}|a\nb\n", 0..2),
     )
-        .prop_map(|(name, graph, parameters, surface, groups)| Document {
+        .prop_map(|(name, graph, parameters, surface, groups, functions)| Document {
+            functions,
             graph,
             parameters,
             surface,

@@ -3,11 +3,14 @@
 //! The store holds texels as they stand in the files, but that colours of files with other profiles are brought to sRGB.
 //! Decoding sRGB, and smaller levels, are the renderers' business, as one picture may be read both ways.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use halfvector_graph::document::Document;
+use halfvector_graph::flatten::flatten;
+use halfvector_graph::library::Library;
 use halfvector_graph::value::{ColorSpace, ImageRef, Value};
 use halfvector_maps::{Decoded, Image, Limits, Noted, Profile};
 use rayon::prelude::*;
@@ -85,7 +88,8 @@ impl ImageStore {
         let mut places: HashMap<ImageKey, usize> = HashMap::new();
         let mut wanted: Vec<Wanted> = Vec::new();
         for material in materials {
-            for (node, label, image) in images_of(&material.document) {
+            let flat = without_groups(&material.document);
+            for (node, label, image) in images_of(&flat) {
                 let key = ImageKey::new(&material.directory, image);
                 if self.by_key.contains_key(&(key.clone(), image.color_space)) {
                     continue;
@@ -239,6 +243,11 @@ fn without_detours(path: &Path) -> PathBuf {
 
 fn is_link(path: &Path) -> bool {
     path.symlink_metadata().is_ok_and(|data| data.is_symlink())
+}
+
+/// A document with its groups taken apart, as far as they can be: what is wrong with them is for the document's check.
+pub(crate) fn without_groups(document: &Document) -> Cow<'_, Document> {
+    flatten(document, Library::standard()).map_or(Cow::Borrowed(document), |flat| flat.document)
 }
 
 /// (node id, label, image) of every image value on a node that a surface reads from, in order of ids and sockets.

@@ -5,17 +5,18 @@
 
 use halfvector_graph::check::{Problem, Severity};
 use halfvector_graph::document::{Document, Node};
+use halfvector_graph::flatten::find;
 use halfvector_graph::value::{ImageRef, Value};
 use halfvector_maps::{Agreement, GreenSign, agreement};
 
-use crate::images::ImageStore;
+use crate::images::{ImageStore, without_groups};
 use crate::scene::SceneMaterial;
 
 /// A warning for each normal map of the material that a height map of it contradicts. Images that `images` has not are
 /// passed over.
 pub fn normal_map_problems(material: &SceneMaterial, images: &ImageStore) -> Vec<Problem> {
-    let document = &material.document;
-    let heights: Vec<&ImageRef> = height_images(document);
+    let document = without_groups(&material.document);
+    let heights: Vec<&ImageRef> = height_images(&document);
     let normal_maps = document.graph.nodes.iter().filter(|(_, node)| node.node == "textures/normal_map");
     let mut problems = Vec::new();
     for (id, node) in normal_maps {
@@ -29,9 +30,11 @@ pub fn normal_map_problems(material: &SceneMaterial, images: &ImageStore) -> Vec
             contradicts(&found, flips).then_some((height, found))
         });
         if let Some((height, found)) = found {
+            let (group, id) = find(&material.document, id).map_or((None, id.as_str()), |(group, id, _)| (group, id));
             problems.push(Problem {
                 severity: Severity::Warning,
-                node: Some(id.clone()),
+                group: group.map(str::to_owned),
+                node: Some(id.to_owned()),
                 node_label: node.label.clone(),
                 socket: Some("flip_y".to_owned()),
                 message: message(&image.file, &height.file, &found, flips),

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use eframe::egui::{self, Align, Layout, Sense};
-use halfvector_codegen::cost::{Cost as Counted, Figures, cost};
-use halfvector_codegen::{Fold, shader};
+use halfvector_codegen::{Cost as Counted, Fold, Instructions, cost, shader};
 use halfvector_graph::check::node_label;
 use halfvector_graph::document::{Document, NodeId};
 use halfvector_graph::library::Library;
@@ -68,8 +67,8 @@ impl Cost {
             }
         }
         let Some(Ok(counted)) = self.counted.as_ref().filter(|_| self.colors_graph) else { return BTreeMap::new() };
-        let most = counted.nodes.iter().map(|(_, figures)| weight(*figures)).max().unwrap_or(0).max(1);
-        counted.nodes.iter().map(|(id, figures)| (id.clone(), weight(*figures) as f32 / most as f32)).collect()
+        let most = counted.nodes.iter().map(|part| weight(part.instructions)).max().unwrap_or(0).max(1);
+        counted.nodes.iter().map(|part| (part.node.clone(), weight(part.instructions) as f32 / most as f32)).collect()
     }
 
     /// Draws the bars.
@@ -82,8 +81,8 @@ impl Cost {
                 ui.separator();
                 if let Some(Ok(counted)) = &self.counted {
                     ui.label(total(counted)).on_hover_text(
-                        "Of the exported shader under the viewport's lights. Operations on single numbers, where a \
-                         transcendental function counts four and a loop four passes. A driver may need fewer.",
+                        "Estimated for the exported shader under the viewport's lights: an operation on a scalar or vector is one \
+                         instruction, a loop counts once, both sides of a branch count. A driver may need fewer.",
                     );
                 }
             });
@@ -101,16 +100,20 @@ impl Cost {
     }
 }
 
-/// One number for what counts two things: a sample costs about as much as this many operations.
-fn weight(figures: Figures) -> u32 {
-    figures.operations.saturating_add(figures.samples.saturating_mul(16))
+/// One number for all classes, for comparing: a transcendental function runs at a quarter of the rate of arithmetic, a read of a
+/// texture costs about as much as sixteen sums.
+fn weight(part: Instructions) -> u32 {
+    let plain = part.arithmetic.saturating_add(part.choices);
+    plain.saturating_add(part.transcendental.saturating_mul(4)).saturating_add(part.samples.saturating_mul(16))
 }
 
 fn total(counted: &Counted) -> String {
     let Counted { fragment, vertex, uniform_bytes, .. } = counted;
     format!(
-        "fragment: {} operations, {} samples · vertex: {} operations, {} samples · {uniform_bytes} bytes of uniforms",
-        fragment.operations, fragment.samples, vertex.operations, vertex.samples
+        "fragment: {} instructions, {} texture reads · vertex: {} instructions · {uniform_bytes} bytes of uniforms",
+        fragment.total(),
+        fragment.samples,
+        vertex.total()
     )
 }
 
@@ -118,34 +121,35 @@ fn total(counted: &Counted) -> String {
 struct Bar<'a> {
     node: Option<&'a NodeId>,
     label: String,
-    figures: Figures,
-    bytes: u32,
+    instructions: Instructions,
 }
 
 fn bars(ui: &mut egui::Ui, session: &Session, counted: &Counted, actions: &mut Vec<Action>) {
-    let bytes: BTreeMap<&NodeId, u32> = counted.node_uniform_bytes.iter().map(|(id, bytes)| (id, *bytes)).collect();
-    let of_nodes = counted.nodes.iter().fold(Figures::default(), |sum, (_, figures)| sum + *figures);
-    let whole = counted.fragment + counted.vertex;
-    let rest = Figures {
-        operations: whole.operations.saturating_sub(of_nodes.operations),
-        samples: whole.samples.saturating_sub(of_nodes.samples),
+    let left = |class: fn(&Instructions) -> u32| {
+        let of_nodes = counted.nodes.iter().map(|part| class(&part.instructions)).fold(0, u32::saturating_add);
+        class(&counted.fragment).saturating_add(class(&counted.vertex)).saturating_sub(of_nodes)
+    };
+    let rest = Instructions {
+        arithmetic: left(|of| of.arithmetic),
+        transcendental: left(|of| of.transcendental),
+        choices: left(|of| of.choices),
+        samples: left(|of| of.samples),
     };
     let mut bars: Vec<Bar> = counted
         .nodes
         .iter()
-        .map(|(id, figures)| Bar {
-            node: Some(id),
-            label: node_label(session.graph(), Library::standard(), id),
-            figures: *figures,
-            bytes: bytes.get(id).copied().unwrap_or(0),
+        .map(|part| Bar {
+            node: Some(&part.node),
+            label: node_label(session.graph(), Library::standard(), &part.node),
+            instructions: part.instructions,
         })
         .collect();
-    bars.push(Bar { node: None, label: "Light and transforms".to_owned(), figures: rest, bytes: 0 });
-    bars.sort_by_key(|bar| std::cmp::Reverse(weight(bar.figures)));
-    let most = bars.first().map_or(1, |bar| weight(bar.figures)).max(1);
+    bars.push(Bar { node: None, label: "Light and transforms".to_owned(), instructions: rest });
+    bars.sort_by_key(|bar| std::cmp::Reverse(weight(bar.instructions)));
+    let most = bars.first().map_or(1, |bar| weight(bar.instructions)).max(1);
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for bar in &bars {
-            ui.horizontal(|ui| row(ui, bar, weight(bar.figures) as f32 / most as f32, actions));
+            ui.horizontal(|ui| row(ui, bar, weight(bar.instructions) as f32 / most as f32, actions));
         }
     });
 }
@@ -175,12 +179,9 @@ fn row(ui: &mut egui::Ui, bar: &Bar<'_>, share: f32, actions: &mut Vec<Action>) 
     let mut filled = track;
     filled.set_width(track.width() * share.clamp(0.0, 1.0));
     ui.painter().rect_filled(filled, 3.0, theme::heat(share));
-    let mut text = format!("{:>6} op", bar.figures.operations);
-    if bar.figures.samples > 0 {
-        text += &format!("  {} tex", bar.figures.samples);
-    }
-    if bar.bytes > 0 {
-        text += &format!("  {} B", bar.bytes);
+    let mut text = format!("{:>6}", bar.instructions.total());
+    if bar.instructions.samples > 0 {
+        text += &format!("  {} tex", bar.instructions.samples);
     }
     ui.monospace(text);
 }

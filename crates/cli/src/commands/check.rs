@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use halfvector_codegen::Fold;
-use halfvector_graph::check::{Problem, Severity};
+use halfvector_codegen::{Cost, Fold, Instructions};
+use halfvector_graph::check::{Problem, Severity, node_label};
 use halfvector_graph::document::Document;
+use halfvector_graph::flatten::flatten;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput};
@@ -21,6 +22,7 @@ use crate::output::{note, print, print_json};
 #[command(after_help = "Example:
   halfvector check examples/*.material.json --format json
   halfvector check --stability examples/unstable/cancellation.material.json
+  halfvector check --cost examples/rusted-iron.material.json
 
 Exit code 3 when there is an error or, with --stability, something unstable, 1 when a file cannot be read, 0 when there are only warnings or nothing.")]
 pub(crate) struct CheckArgs {
@@ -31,6 +33,10 @@ pub(crate) struct CheckArgs {
     /// wrong; what jumps (floor, checker) is listed apart
     #[arg(long)]
     stability: bool,
+    /// Also estimates what each node and the whole shader cost under one directional light: instructions by class, reads of
+    /// textures, bytes of uniforms
+    #[arg(long)]
+    cost: bool,
     /// How problems are written
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -57,10 +63,18 @@ struct Judged {
     stability: Stability,
 }
 
+/// What --cost found in a file.
+struct Costed {
+    file: PathBuf,
+    document: Document,
+    cost: Cost,
+}
+
 /// Runs the command.
 pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let mut found = Vec::new();
     let mut judged = Vec::new();
+    let mut costed = Vec::new();
     let mut unreadable = false;
     for path in &args.documents {
         match materials(path) {
@@ -71,6 +85,14 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
                     if args.stability && sound {
                         match stability(material) {
                             Ok(stability) => judged.push(Judged { file: path.clone(), stability }),
+                            Err(message) => problems.push(of_document(message)),
+                        }
+                    }
+                    if args.cost && sound {
+                        match estimate(&material.document) {
+                            Ok(cost) => {
+                                costed.push(Costed { file: path.clone(), document: material.document.clone(), cost });
+                            }
                             Err(message) => problems.push(of_document(message)),
                         }
                     }
@@ -94,6 +116,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
                 lines.extend(stability.unstable.iter().map(|f| finding_line(file, "unstable", f)));
                 lines.extend(stability.edges.iter().map(|f| finding_line(file, "edge", f)));
             }
+            lines.extend(costed.iter().flat_map(cost_lines));
             if !unreadable && lines.is_empty() {
                 lines.push("no problems".to_owned());
             }
@@ -110,6 +133,9 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
                 result["unstable"] = all(|stability| &stability.unstable).into();
                 result["edges"] = all(|stability| &stability.edges).into();
             }
+            if args.cost {
+                result["cost"] = costed.iter().map(cost_json).collect();
+            }
             print_json(&result)?;
         }
     }
@@ -123,10 +149,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
 }
 
 fn as_json(found: &Found) -> serde_json::Value {
-    let Problem { severity, node, node_label, socket, message } = &found.problem;
+    let Problem { severity, group, node, node_label, socket, message } = &found.problem;
     json!({
         "file": found.file.display().to_string(),
         "severity": severity,
+        "group": group,
         "node": node,
         "node_label": node_label,
         "socket": socket,
@@ -209,8 +236,78 @@ fn problems(material: &SceneMaterial) -> Vec<Problem> {
     problems
 }
 
+/// What a material costs under one directional light.
+fn estimate(document: &Document) -> Result<Cost, String> {
+    let needs = Needs {
+        directional_lights: 1,
+        point_lights: 0,
+        spot_lights: 0,
+        environment: None,
+        output: ShaderOutput::Radiance,
+        methods: Methods::default(),
+    };
+    let shader = halfvector_codegen::shader(document, Library::standard(), &needs, Fold::Export)
+        .map_err(|error| error.to_string())?;
+    halfvector_codegen::cost(&shader).map_err(|error| error.to_string())
+}
+
+/// The total and one line for each node, the dearest first.
+fn cost_lines(costed: &Costed) -> Vec<String> {
+    let Costed { file, document, cost } = costed;
+    let classes = |i: Instructions| {
+        format!(
+            "{} instructions ({} arithmetic, {} transcendental, {} choices, {} texture reads)",
+            i.total(),
+            i.arithmetic,
+            i.transcendental,
+            i.choices,
+            i.samples
+        )
+    };
+    let file = file.display();
+    let mut lines = vec![format!(
+        "{file}: cost, estimated: each pixel {}, each vertex {}; {} bytes of uniforms",
+        classes(cost.fragment),
+        cost.vertex.total(),
+        cost.uniform_bytes
+    )];
+    let mut nodes: Vec<_> = cost.nodes.iter().collect();
+    nodes.sort_by_key(|node| std::cmp::Reverse(node.instructions.total()));
+    lines.extend(nodes.into_iter().map(|node| {
+        let label = label(document, &node.node);
+        format!("{file}: cost: `{label}` ({}): {}", node.node, classes(node.instructions))
+    }));
+    lines
+}
+
+fn cost_json(costed: &Costed) -> serde_json::Value {
+    let Costed { file, document, cost } = costed;
+    let nodes = cost.nodes.iter().map(|node| {
+        json!({ "node": node.node, "label": label(document, &node.node), "instructions": node.instructions,
+            "total": node.instructions.total() })
+    });
+    json!({
+        "file": file.display().to_string(),
+        "estimated": true,
+        "fragment": cost.fragment,
+        "fragment_total": cost.fragment.total(),
+        "vertex": cost.vertex,
+        "vertex_total": cost.vertex.total(),
+        "uniform_bytes": cost.uniform_bytes,
+        "nodes": nodes.collect::<Vec<_>>(),
+    })
+}
+
+/// The label of a node; in a group after the group's.
+fn label(document: &Document, path: &str) -> String {
+    match flatten(document, Library::standard()) {
+        Ok(flat) => node_label(&flat.document.graph, &flat.library, path),
+        Err(_) => path.to_owned(),
+    }
+}
+
 fn of_document(message: String) -> Problem {
-    Problem { severity: Severity::Error, node: None, node_label: None, socket: None, message }
+    Problem { severity: Severity::Error, group: None, node: None, node_label: None, socket: None, message }
 }
 
 /// Makes and validates the shader for one light of each kind and an environment.

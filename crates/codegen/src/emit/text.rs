@@ -9,7 +9,7 @@ use halfvector_graph::document::NodeId;
 pub enum Origin {
     /// A node of the document.
     Node(NodeId),
-    /// A file of the shader library, such as `brdf/ggx.wgsl`.
+    /// A file of the shader library, such as `brdf/ggx.wgsl`, or a function of the document, such as `custom/stripes`.
     Library(String),
     /// What codegen writes around them: interface, transforms, lighting.
     Frame,

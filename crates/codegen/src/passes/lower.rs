@@ -3,7 +3,8 @@
 
 use std::collections::HashMap;
 
-use halfvector_graph::document::{Document, SocketRef};
+use halfvector_graph::document::{Document, GROUP_OUTPUT, SocketRef, group_of};
+use halfvector_graph::flatten::find;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::node_def::{Argument, Default, Function, Input as InputDef, NodeDef};
@@ -13,7 +14,7 @@ use crate::ir::{Arena, Entry, Expr, Id, Input, NodeInfo, Program, Stage, Table, 
 use crate::link::Index;
 use crate::passes::fold;
 use crate::passes::specialise::{NORMALS, SOCKETS};
-use crate::passes::types::Types;
+use crate::passes::types::{Source, Types};
 use crate::{CodegenError, Fold};
 
 /// The two stages of a rasteriser, which may call different functions for a node.
@@ -66,7 +67,8 @@ impl<'a, 't> Lowering<'a, 't> {
             return Ok(None);
         };
         // Depth first with an explicit stack: a node is made when all that it reads is made.
-        let mut stack: Vec<(usize, bool)> = self.types.sources[node][index].iter().map(|s| (s.node, false)).collect();
+        let first = self.types.sources[node][index].and_then(Source::computed);
+        let mut stack: Vec<(usize, bool)> = first.into_iter().map(|node| (node, false)).collect();
         while let Some((at, ready)) = stack.pop() {
             if self.calls.contains_key(&at) {
                 continue;
@@ -81,9 +83,8 @@ impl<'a, 't> Lowering<'a, 't> {
             let function = self.function(info.def);
             for (index, input) in info.def.inputs.iter().enumerate().rev() {
                 let wanted = function.arguments.iter().any(|a| matches!(a, Argument::Input(n) if *n == input.name));
-                if let (true, Some(source)) = (wanted, &self.types.sources[at][index]) {
-                    stack.push((source.node, false));
-                }
+                let source = self.types.sources[at][index].and_then(Source::computed);
+                stack.extend(source.filter(|_| wanted).map(|node| (node, false)));
             }
         }
         self.value(arena, table, node, index).map(Some)
@@ -149,7 +150,14 @@ impl<'a, 't> Lowering<'a, 't> {
         let ty = match def.ty {
             SocketType::Value(ty) => ty,
             SocketType::Generic => info.generic.unwrap_or(Type::F32),
-            SocketType::Texture => return self.texture(arena, table, node, def),
+            SocketType::Texture => {
+                // A picture may be handed on from a group's input.
+                let (node, index) = match self.types.sources[node][index] {
+                    Some(Source::Input { node, input }) => (node, input),
+                    _ => (node, index),
+                };
+                return self.texture(arena, table, node, &self.types.nodes[node].def.inputs[index]);
+            }
             SocketType::Surface => {
                 return Err(CodegenError::Library(format!(
                     "`{}` takes a surface, which this version cannot mix",
@@ -157,17 +165,21 @@ impl<'a, 't> Lowering<'a, 't> {
                 )));
             }
         };
-        if let Some(source) = &self.types.sources[node][index] {
-            let from = &self.types.nodes[source.node];
-            let output = &from.def.outputs[source.output];
-            let call = self.calls[&source.node];
+        if let Some(Source::Input { node, input }) = self.types.sources[node][index] {
+            let id = self.value(arena, table, node, input)?;
+            return Ok(arena.convert(id, ty));
+        }
+        if let Some(Source::Output { node: source, output }) = self.types.sources[node][index] {
+            let from = &self.types.nodes[source];
+            let output = &from.def.outputs[output];
+            let call = self.calls[&source];
             let id = if matches!(arena.get(call).ty, Ty::Struct) {
                 let from_ty = match output.ty {
                     SocketType::Value(ty) => ty,
                     _ => from.generic.unwrap_or(Type::F32),
                 };
                 let field = Expr::Field { of: call, name: &output.name };
-                arena.push(Entry { expr: field, ty: Ty::Value(from_ty), node: Some(source.node), hint: "" })
+                arena.push(Entry { expr: field, ty: Ty::Value(from_ty), node: Some(source), hint: "" })
             } else {
                 call
             };
@@ -329,17 +341,23 @@ fn unit_normal<'a>(arena: &mut Arena<'a>, types: &Types<'a>, id: Id) -> Id {
     arena.own(expr, Type::Vec3, "shading_normal")
 }
 
-/// The value that an unconnected input of a document has, with as many components as `ty` takes: what
+/// The value that an unconnected input of a document has (`socket.node` may be a path into groups), with as many components as `ty` takes: what
 /// `UniformSource::Input` is filled with. `None` for what has no number (a texture, an unset context, an unknown node).
 pub fn input_value(document: &Document, library: &Library, socket: &SocketRef, ty: Type) -> Option<Vec<f32>> {
-    let node = document.graph.nodes.get(&socket.node)?;
-    let set = node.values.get(&socket.socket);
-    let value = match set {
-        Some(value) => value,
-        None => match &library.get(&node.node)?.inputs.iter().find(|i| i.name == socket.socket)?.default {
-            Default::Value(value) => value,
-            Default::Context(_) | Default::Image(_) => return None,
-        },
+    let (_, _, node) = find(document, &socket.node)?;
+    let default = |default: &Default| match default {
+        Default::Value(value) => value.components().map(<[f32]>::to_vec),
+        Default::Context(_) | Default::Image(_) => None,
     };
-    Some(crate::ir::Literal::new(ty, value.components()?).components())
+    let components = match (node.values.get(&socket.socket), group_of(&node.node)) {
+        (Some(value), _) => value.components()?.to_vec(),
+        (None, Some(group)) => {
+            let inputs = &document.groups.get(group)?.interface.inputs;
+            default(&inputs.iter().find(|i| i.name == socket.socket)?.default)?
+        }
+        // What a group gives where nothing is wired inside.
+        (None, None) if node.node == GROUP_OUTPUT => vec![0.0],
+        (None, None) => default(&library.get(&node.node)?.inputs.iter().find(|i| i.name == socket.socket)?.default)?,
+    };
+    Some(crate::ir::Literal::new(ty, &components).components())
 }

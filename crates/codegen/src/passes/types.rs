@@ -12,11 +12,23 @@ use halfvector_graph::wiring::Wiring;
 use crate::CodegenError;
 use crate::ir::NodeInfo;
 
-/// The output that feeds an input: numbers of the node and of its output.
+/// What feeds an input. Nodes that only hand on what they get are looked through.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Source {
-    pub(crate) node: usize,
-    pub(crate) output: usize,
+pub(crate) enum Source {
+    /// The output `output` of node number `node`.
+    Output { node: usize, output: usize },
+    /// What the unconnected input `input` of node number `node` reads.
+    Input { node: usize, input: usize },
+}
+
+impl Source {
+    /// The node that must be computed first, if any.
+    pub(crate) fn computed(self) -> Option<usize> {
+        match self {
+            Source::Output { node, .. } => Some(node),
+            Source::Input { .. } => None,
+        }
+    }
 }
 
 /// The nodes that the surface is made of.
@@ -49,9 +61,12 @@ pub(crate) fn resolve<'a>(document: &'a Document, library: &'a Library) -> Resul
                 let node = *index.get(from.node.as_str())?;
                 let info: &NodeInfo<'_> = &types.nodes[node];
                 let output = info.def.outputs.iter().position(|o| o.name == from.socket)?;
-                Some(Source { node, output })
+                if info.def.forwards {
+                    return Some(types.sources[node][output].unwrap_or(Source::Input { node, input: output }));
+                }
+                Some(Source::Output { node, output })
             })
-            .collect();
+            .collect::<Vec<Option<Source>>>();
         index.insert(id, types.nodes.len());
         types.surface = types.nodes.len();
         let label = node.label.as_deref().unwrap_or(&known.def.label);

@@ -3,6 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use super::{OutputFile, Source, file};
+use crate::emit::text::Origin;
+use crate::line_map::{Lines, line_map};
 use crate::reflection::{
     Binding, LightKind, Resource, SamplerSource, ShaderParameter, TextureSource, UniformMember, UniformSource,
 };
@@ -26,11 +28,24 @@ pub(super) fn reflection(source: &Source<'_>, name: &str, target: &str, details:
     root.insert("parameters".into(), reflection.parameters.iter().map(parameter).collect());
     let left_out = source.shader.dropped.iter().map(|d| json!({ "what": d.what, "why": d.why }));
     root.insert("left_out".into(), left_out.collect());
+    if target == "wgsl" {
+        // Other targets have other lines.
+        root.insert("lines".into(), line_map(source.shader).iter().filter_map(lines).collect());
+    }
     if let Some((key, value)) = details {
         root.insert(key.into(), value);
     }
     let text = serde_json::to_string_pretty(&Value::Object(root)).unwrap_or_default();
     file(format!("{name}.json"), format!("{text}\n"))
+}
+
+fn lines(lines: &Lines) -> Option<Value> {
+    let (key, name) = match &lines.origin {
+        Origin::Node(id) => ("node", id),
+        Origin::Library(file) => ("file", file),
+        Origin::Frame => return None,
+    };
+    Some(json!({ "first": lines.first, "last": lines.last, key: name }))
 }
 
 fn binding(binding: &Binding) -> Value {

@@ -1,35 +1,35 @@
-//! What nodes cost.
+//! What shaders cost, estimated.
 
-use super::{exported, material, sun};
-use crate::cost::{Figures, cost};
+use halfvector_graph::document::Document;
+use halfvector_graph::needs::Needs;
 
-fn figures(values: &str, nodes: &str, links: &str, id: &str) -> Figures {
-    let shader = exported(&material(values, nodes, links), &sun());
-    let cost = cost(&shader).expect("a valid shader");
-    let parts = cost.nodes.iter().fold(Figures::default(), |sum, (_, figures)| sum + *figures);
-    let whole = cost.fragment + cost.vertex;
-    assert!(parts.operations <= whole.operations && parts.samples <= whole.samples);
-    assert!(cost.fragment.operations > 20, "the light costs something");
-    cost.nodes.iter().find(|(node, _)| node == id).map(|(_, figures)| *figures).unwrap_or_default()
-}
-
-const TO_COLOR: &str = r#"{"from": "n.out", "to": "surface.base_color"}"#;
+use super::{environment, exported, maps, material, sun};
+use crate::cost;
 
 #[test]
-fn a_noise_costs_more_than_a_sum() {
-    let to_roughness = r#"{"from": "n.out", "to": "surface.perceptual_roughness"}"#;
-    let add = r#""far": {"node": "vector/length"}, "n": {"node": "math/add", "values": {"b": 0.5}},
-        "uv": {"node": "coordinates/uv"}"#;
-    let links = r#"{"from": "uv.out", "to": "far.v"}, {"from": "far.out", "to": "n.a"}"#;
-    let sum = figures("", add, &format!("{links}, {to_roughness}"), "n");
-    let noise = r#""n": {"node": "procedural/fbm_3d", "values": {"octaves": 6}}"#;
-    let noise = figures("", noise, to_roughness, "n");
-    assert!(sum.operations >= 1 && noise.operations > 20 * sum.operations, "{sum:?}, {noise:?}");
+fn what_is_more_costs_more() {
+    let of = |document: &Document, needs: &Needs| cost(&exported(document, needs)).unwrap_or_else(|e| panic!("{e}"));
+    let plain = of(&material("", "", ""), &sun());
+    let mapped = of(&maps(), &sun());
+    assert!(plain.fragment.total() > 10, "{plain:?}");
+    assert!(mapped.fragment.total() > plain.fragment.total());
+    assert_eq!(mapped.fragment.samples, plain.fragment.samples + 4);
+    assert!(of(&maps(), &environment()).fragment.samples > mapped.fragment.samples);
+    assert!(plain.uniform_bytes > 0 && plain.vertex.total() > 0);
 }
 
+/// Each node has its own part, with what it calls; all of them are less than the whole.
 #[test]
-fn a_texture_is_a_sample() {
-    let image = r#""n": {"node": "textures/image", "values": {"image": {"file": "a.png", "color_space": "srgb"}}}"#;
-    let image = figures("", image, &TO_COLOR.replace("n.out", "n.color"), "n");
-    assert_eq!(image.samples, 1, "{image:?}");
+fn nodes_have_their_parts() {
+    let document = material(
+        "",
+        r#""noise": {"node": "procedural/value_noise_2d"}, "sine": {"node": "math/sin"}"#,
+        r#"{"from": "noise.out", "to": "sine.x"}, {"from": "sine.out", "to": "surface.base_color"}"#,
+    );
+    let cost = cost(&exported(&document, &sun())).unwrap_or_else(|e| panic!("{e}"));
+    let of = |id: &str| cost.nodes.iter().find(|n| n.node == id).map(|n| n.instructions).expect("a part");
+    assert_eq!((of("sine").transcendental, of("sine").total()), (1, 1));
+    assert!(of("noise").total() > 20, "with the function that it calls: {:?}", of("noise"));
+    let parts: u32 = cost.nodes.iter().map(|n| n.instructions.total()).sum();
+    assert!(parts < cost.fragment.total() + cost.vertex.total());
 }

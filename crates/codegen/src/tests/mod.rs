@@ -1,8 +1,10 @@
 //! Whole documents through codegen.
 
 mod cost;
+mod custom;
 mod figures;
 mod folding;
+mod groups;
 mod hostile;
 mod nodes;
 mod only_needed;

@@ -8,9 +8,9 @@ use crate::document::{Link, SocketRef};
 use crate::value::SocketType;
 
 pub(super) fn check(checker: &mut Checker) {
-    let document = checker.document;
+    let graph = checker.graph;
     let mut first: HashMap<&SocketRef, &Link> = HashMap::new();
-    for link in &document.graph.links {
+    for link in &graph.links {
         if let Some(earlier) = first.get(&link.to) {
             let message = format!(
                 "two links lead into this input, from {} and from {}; remove one of them (the first counts)",
@@ -74,10 +74,11 @@ fn ends(checker: &mut Checker, link: &Link) {
     checker.wrong(&link.to.node, Some(&link.to.socket), message);
 }
 
-fn fits(given: SocketType, wanted: SocketType) -> bool {
+/// Whether an output of one type can feed an input of another.
+pub(crate) fn fits(given: SocketType, wanted: SocketType) -> bool {
     match (given, wanted) {
         (SocketType::Value(given), SocketType::Value(wanted)) => given.converts_to(wanted),
-        (SocketType::Surface, SocketType::Surface) => true,
+        (SocketType::Surface, SocketType::Surface) | (SocketType::Texture, SocketType::Texture) => true,
         _ => false,
     }
 }

@@ -1,7 +1,7 @@
 //! Problems of single nodes: names, definitions, values, and nodes that reach nothing.
 
 use super::{Checker, Severity, words};
-use crate::document::{Node, NodeId, is_name};
+use crate::document::{GROUP_INPUT, GROUP_OUTPUT, Node, NodeId, function_of, group_of, is_name};
 use crate::node_def::{Default, Input, NodeDef};
 use crate::value::{ImageRef, SocketType, Value};
 
@@ -9,9 +9,9 @@ use crate::value::{ImageRef, SocketType, Value};
 const MAX_SEARCHES: usize = 100;
 
 pub(super) fn check(checker: &mut Checker) {
-    let document = checker.document;
+    let graph = checker.graph;
     let mut searches = 0;
-    for (id, node) in &document.graph.nodes {
+    for (id, node) in &graph.nodes {
         name(checker, id, node);
         let Some(def) = checker.library.get(&node.node) else {
             searches += 1;
@@ -27,8 +27,12 @@ pub(super) fn check(checker: &mut Checker) {
         for input in &def.inputs {
             missing_image(checker, id, node, input);
         }
-        if !checker.live.contains(id.as_str()) {
-            checker.warn(id, None, "the node does not reach the surface and is left out; link it or remove it");
+        if checker.is_used && !checker.live.contains(id.as_str()) {
+            // The inputs of a group are there whether it reads them or not.
+            if node.node != GROUP_INPUT {
+                let end = if checker.group.is_some() { "the group's outputs" } else { "the surface" };
+                checker.warn(id, None, format!("the node does not reach {end} and is left out; link it or remove it"));
+            }
         }
     }
 }
@@ -55,6 +59,26 @@ fn name(checker: &mut Checker, id: &NodeId, node: &Node) {
 
 fn unknown_definition(checker: &mut Checker, id: &str, node: &Node, search: bool) {
     let library = checker.library;
+    if let Some(group) = group_of(&node.node) {
+        let known = library.iter().filter_map(|def| group_of(&def.id));
+        let remedy = match words::nearest(group, known) {
+            Some(likely) => format!("did you mean `group/{likely}`?"),
+            None => "import it, or remove the node.".into(),
+        };
+        let message = format!("there is no group `{group}` in this document; {remedy}");
+        return checker.wrong(id, None, message);
+    }
+    if let Some(function) = function_of(&node.node) {
+        // What is wrong with a function is told with it.
+        if !checker.document.functions.contains_key(function) {
+            let message = format!("there is no function `{function}` in this document; write it, or remove the node");
+            checker.wrong(id, None, message);
+        }
+        return;
+    }
+    if node.node == GROUP_INPUT || node.node == GROUP_OUTPUT {
+        return checker.wrong(id, None, format!("`{}` stands inside groups only; remove the node", node.node));
+    }
     let word = node.node.rsplit('/').next().unwrap_or("");
     let synonym = || library.iter().find(|def| def.synonyms.iter().any(|s| s == word)).map(|def| def.id.as_str());
     let likely = if search {
@@ -129,7 +153,8 @@ fn picture(checker: &mut Checker, id: &str, input: &Input, image: &ImageRef) {
 }
 
 fn missing_image(checker: &mut Checker, id: &str, node: &Node, input: &Input) {
-    if let (Default::Image(_), None) = (&input.default, node.values.get(&input.name)) {
+    let is_fed = || checker.wiring.incoming(id, &input.name).is_some();
+    if let (Default::Image(_), None, false) = (&input.default, node.values.get(&input.name), is_fed()) {
         checker.wrong(id, Some(&input.name), "no picture is chosen; set one");
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn check(checker: &mut Checker, surface: &str) {
 }
 
 fn vertex_stage(checker: &mut Checker, id: &str) {
-    let Some(def) = checker.document.graph.nodes.get(id).and_then(|node| checker.library.get(&node.node)) else {
+    let Some(def) = checker.graph.nodes.get(id).and_then(|node| checker.library.get(&node.node)) else {
         return;
     };
     if def.function.implicit_derivatives && def.vertex_function.is_none() {
@@ -32,7 +32,7 @@ fn vertex_stage(checker: &mut Checker, id: &str) {
     }
     for input in &def.inputs {
         let is_free = checker.wiring.incoming(id, &input.name).is_none()
-            && !checker.document.graph.nodes[id].values.contains_key(&input.name);
+            && !checker.graph.nodes[id].values.contains_key(&input.name);
         let reads = match &input.default {
             Default::Context(name) if is_free => context(name),
             _ => None,
@@ -55,7 +55,7 @@ fn vertex_stage_lacks(context: &Context) -> Option<String> {
 
 fn roughness(checker: &mut Checker, surface: &str) {
     const SOCKET: &str = "perceptual_roughness";
-    let Some(node) = checker.document.graph.nodes.get(surface) else { return };
+    let Some(node) = checker.graph.nodes.get(surface) else { return };
     let default = || {
         let def = checker.library.get(&node.node)?;
         match &def.inputs.iter().find(|input| input.name == SOCKET)?.default {

@@ -3,12 +3,12 @@
 use crate::value::{SocketType, Type, Value};
 
 /// A label without line breaks and other control characters.
-pub(super) fn one_line(label: &str) -> String {
+pub(crate) fn one_line(label: &str) -> String {
     label.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 /// Names of a ring, the first one again at its end; of a long one just its start.
-pub(super) fn ring(labels: &[String]) -> String {
+pub(crate) fn ring(labels: &[String]) -> String {
     const SHOWN: usize = 8;
     let mut text: Vec<String> =
         labels.iter().take(SHOWN).map(|label| format!("\u{201c}{}\u{201d}", one_line(label))).collect();
@@ -20,7 +20,7 @@ pub(super) fn ring(labels: &[String]) -> String {
 }
 
 /// What a socket takes.
-pub(super) fn socket_type(ty: SocketType) -> &'static str {
+pub(crate) fn socket_type(ty: SocketType) -> &'static str {
     match ty {
         SocketType::Value(ty) => ty.wgsl(),
         SocketType::Generic => "T",
@@ -30,7 +30,7 @@ pub(super) fn socket_type(ty: SocketType) -> &'static str {
 }
 
 /// How to write a value of a type.
-pub(super) fn example(ty: SocketType) -> &'static str {
+pub(crate) fn example(ty: SocketType) -> &'static str {
     match ty {
         SocketType::Value(Type::Bool) => "true or false",
         SocketType::Value(Type::I32) => "a whole number, such as 3",
@@ -45,7 +45,7 @@ pub(super) fn example(ty: SocketType) -> &'static str {
 }
 
 /// What a value is.
-pub(super) fn value(value: &Value) -> String {
+pub(crate) fn value(value: &Value) -> String {
     match value {
         Value::Bool(b) => b.to_string(),
         Value::Number(x) => format!("the number {x}"),
@@ -57,7 +57,7 @@ pub(super) fn value(value: &Value) -> String {
 }
 
 /// What is lost when `from` stands where `to` is wanted, and what helps.
-pub(super) fn refusal(from: SocketType, to: SocketType) -> &'static str {
+pub(crate) fn refusal(from: SocketType, to: SocketType) -> &'static str {
     use Type::{Bool, F32, I32};
     match (from, to) {
         (_, SocketType::Texture) => "a picture is set on the node, not linked",
@@ -76,7 +76,7 @@ pub(super) fn refusal(from: SocketType, to: SocketType) -> &'static str {
 }
 
 /// The candidate that `name` was probably meant to be: at most a third of it differs.
-pub(super) fn nearest<'c>(name: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
+pub(crate) fn nearest<'c>(name: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
     if name.len() > 64 {
         return None;
     }

@@ -81,6 +81,11 @@ pub fn group_of(definition: &str) -> Option<&str> {
     definition.strip_prefix("group/").filter(|id| *id != "input" && *id != "output")
 }
 
+/// The document's WGSL function that a definition's id names: `stripes` of `custom/stripes`.
+pub fn function_of(definition: &str) -> Option<&str> {
+    definition.strip_prefix("custom/")
+}
+
 impl Group {
     /// A group with a label and nothing in it but the node of its outputs.
     pub fn new(label: &str) -> Group {

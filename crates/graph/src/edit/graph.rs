@@ -82,6 +82,7 @@ pub(super) fn apply(graph: &mut Graph, edit: &Edit) -> Result<Edit, EditError> {
         Edit::AddGroup { .. } | Edit::RemoveGroup { .. } | Edit::SetInterface { .. } | Edit::In { .. } => {
             Err(EditError::OfDocument("groups"))
         }
+        Edit::SetFunction { .. } => Err(EditError::OfDocument("functions")),
         Edit::Many(_) => Err(EditError::OfDocument("lists of edits")),
     }
 }

@@ -6,18 +6,27 @@ mod value;
 
 use serde_json::{Map, Value as Plain};
 
-use super::{FileError, MAX_BYTES};
+use super::{FileError, GroupFile, MAX_BYTES};
 use crate::FORMAT_VERSION;
 use crate::document::{AlphaMode, Document, Parameter, SocketRef, SurfaceSettings};
 use crate::json::{self, Json, Member, Spanned};
 use graph::GraphReader;
-use value::{choice, list, members_of, number, object, pair, socket, text, text_of};
+use value::{choice, lines, list, members_of, number, object, pair, socket, text, text_of};
 
 pub(super) use graph::link_of_plain;
 
 /// Reads a document. A document that makes no sense is read all the same (see `check`); one that is not in the format is refused, with
 /// line, column and field. In a document of a newer version, what cannot be understood is kept instead.
 pub fn from_json(text: &str) -> Result<Document, FileError> {
+    parsed(text, read_document)
+}
+
+/// Reads a group's file; as strict as [`from_json`].
+pub fn group_from_json(text: &str) -> Result<GroupFile, FileError> {
+    parsed(text, read_group_file)
+}
+
+fn parsed<T>(text: &str, read: impl FnOnce(Spanned) -> Result<T, Wrong>) -> Result<T, FileError> {
     if text.len() > MAX_BYTES {
         return Err(FileError::TooLarge);
     }
@@ -26,7 +35,7 @@ pub fn from_json(text: &str) -> Result<Document, FileError> {
         let (line, column) = json::line_and_column(text, e.at);
         FileError::Syntax { line, column, message: e.message }
     })?;
-    read_document(root).map_err(|e| {
+    read(root).map_err(|e| {
         let (line, column) = json::line_and_column(text, e.at);
         FileError::Shape { line, column, place: e.place, message: e.message }
     })
@@ -46,20 +55,7 @@ fn wrong<T>(at: usize, place: &str, message: impl Into<String>) -> Result<T, Wro
 fn read_document(root: Spanned) -> Result<Document, Wrong> {
     let at = root.at;
     let members = object(root, "the document")?;
-    let version = match members.iter().find(|m| m.key == "halfvector").map(|m| &m.value) {
-        None => {
-            return wrong(
-                at,
-                "the document",
-                "the field `halfvector` with the format's version is missing; \
-                 write \"halfvector\": 1 first if this is a material",
-            );
-        }
-        Some(Spanned { json: Json::Number(digits), .. }) if digits.parse::<u32>().is_ok_and(|v| v > 0) => {
-            digits.parse::<u32>().unwrap_or(FORMAT_VERSION)
-        }
-        Some(other) => return wrong(other.at, "halfvector", "the format's version is a whole number from 1 on"),
-    };
+    let version = version(&members, at)?;
     let mut reader = Reader { newer: version > FORMAT_VERSION, unknown: Map::new() };
     let mut graph = GraphReader::new(reader.newer, String::new());
     let mut document = Document::new("");
@@ -75,6 +71,7 @@ fn read_document(root: Spanned) -> Result<Document, Wrong> {
             "parameters" => reader.parameters(&mut document, value)?,
             "surface" => reader.surface(&mut document, value)?,
             "groups" => reader.groups(&mut document, value)?,
+            "functions" => reader.functions(&mut document, value)?,
             _ => {
                 nodes_seen |= key == "nodes";
                 if let Some(value) = graph.section(&key, value)? {
@@ -93,6 +90,45 @@ fn read_document(root: Spanned) -> Result<Document, Wrong> {
     document.graph = graph.graph;
     document.unknown = reader.unknown;
     Ok(document)
+}
+
+fn version(members: &[Member], at: usize) -> Result<u32, Wrong> {
+    match members.iter().find(|m| m.key == "halfvector").map(|m| &m.value) {
+        None => wrong(
+            at,
+            "the document",
+            "the field `halfvector` with the format's version is missing; \
+             write \"halfvector\": 1 first if this is a material",
+        ),
+        Some(Spanned { json: Json::Number(digits), .. }) if digits.parse::<u32>().is_ok_and(|v| v > 0) => {
+            Ok(digits.parse::<u32>().unwrap_or(FORMAT_VERSION))
+        }
+        Some(other) => wrong(other.at, "halfvector", "the format's version is a whole number from 1 on"),
+    }
+}
+
+/// A group's file. Of a newer version only what is understood is taken: nothing is written back to it.
+fn read_group_file(root: Spanned) -> Result<GroupFile, Wrong> {
+    let at = root.at;
+    let members = object(root, "the file")?;
+    let mut reader = Reader { newer: version(&members, at)? > FORMAT_VERSION, unknown: Map::new() };
+    let mut document = Document::new("");
+    let mut group = None;
+    for Member { key, value, .. } in members {
+        match key.as_str() {
+            "group" => group = Some(text(value, "group")?),
+            "groups" => reader.groups(&mut document, value)?,
+            "functions" => reader.functions(&mut document, value)?,
+            _ => {}
+        }
+    }
+    match group {
+        Some(group) if document.groups.contains_key(&group) => {
+            Ok(GroupFile { group, groups: document.groups, functions: document.functions })
+        }
+        Some(group) => wrong(at, "groups", format!("the group `{group}`, which the file is about, is missing")),
+        None => wrong(at, "the file", "the field `group` is missing; it names the group that the file is about"),
+    }
 }
 
 struct Reader {
@@ -147,6 +183,23 @@ impl Reader {
                 Ok(true) => {}
                 Err(e) if !self.newer => return Err(e),
                 Ok(false) | Err(_) => self.keep_in_object("surface", key, value.json.into_plain()),
+            }
+        }
+        Ok(())
+    }
+
+    fn functions(&mut self, document: &mut Document, value: Spanned) -> Result<(), Wrong> {
+        if self.newer && !matches!(value.json, Json::Object(_)) {
+            self.unknown.insert("functions".into(), value.json.into_plain());
+            return Ok(());
+        }
+        for Member { key, value, .. } in object(value, "functions")? {
+            match lines(&value, &format!("functions.{key}")) {
+                Ok(text) => {
+                    document.functions.insert(key, text);
+                }
+                Err(_) if self.newer => self.keep_in_object("functions", key, value.json.into_plain()),
+                Err(e) => return Err(e),
             }
         }
         Ok(())

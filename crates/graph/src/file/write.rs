@@ -4,11 +4,13 @@ mod graph;
 mod group;
 mod value;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use serde_json::{Map, Value as Plain};
 
+use super::GroupFile;
 use super::read::parameter_key_of_plain;
+use crate::FORMAT_VERSION;
 use crate::document::{Document, Parameter, SocketRef, SurfaceSettings};
 use graph::kept_list;
 use value::{number, numbers, plain_json, push_unknown, quoted};
@@ -25,21 +27,38 @@ pub fn to_json(document: &Document) -> String {
     if let Some(surface) = surface_json(document) {
         sections.push(format!("  \"surface\": {surface}"));
     }
-    let groups = group::lines(document);
+    let groups = group::lines(&document.groups, document.unknown.get("groups"));
     if !groups.is_empty() {
         sections.push(block("groups", '{', '}', groups, 2));
     }
+    let functions = function_lines(&document.functions, document.unknown.get("functions"));
+    if !functions.is_empty() {
+        sections.push(block("functions", '{', '}', functions, 2));
+    }
     sections.extend(graph::view(&document.graph, 2));
     for (key, value) in &document.unknown {
-        if !SECTIONS.contains(&key.as_str()) || (key == "groups" && !value.is_object()) {
+        if !SECTIONS.contains(&key.as_str()) || (matches!(key.as_str(), "groups" | "functions") && !value.is_object()) {
             sections.push(format!("  {}: {}", quoted(key), plain_json(value)));
         }
     }
     format!("{{\n{}\n}}\n", sections.join(",\n"))
 }
 
+/// A group's file as text.
+pub fn group_to_json(file: &GroupFile) -> String {
+    let mut sections = vec![
+        format!("  \"halfvector\": {FORMAT_VERSION}"),
+        format!("  \"group\": {}", quoted(&file.group)),
+        block("groups", '{', '}', group::lines(&file.groups, None), 2),
+    ];
+    if !file.functions.is_empty() {
+        sections.push(block("functions", '{', '}', function_lines(&file.functions, None), 2));
+    }
+    format!("{{\n{}\n}}\n", sections.join(",\n"))
+}
+
 /// Sections of which parts may be kept: what stands under these names in `Document::unknown` is merged into them.
-const SECTIONS: &[&str] = &["parameters", "surface", "groups"];
+const SECTIONS: &[&str] = &["parameters", "surface", "groups", "functions"];
 
 /// A section of lines, indented by `indent`.
 fn block(name: &str, open: char, close: char, lines: Vec<String>, indent: usize) -> String {
@@ -80,6 +99,21 @@ fn parameter_json(parameter: &Parameter, extra: Option<&Map<String, Plain>>) -> 
         push_unknown(&mut fields, extra, &written);
     }
     format!("{{{}}}", fields.join(", "))
+}
+
+/// The functions in order of id, each line of a text in a line of the file.
+fn function_lines(functions: &BTreeMap<String, String>, kept: Option<&Plain>) -> Vec<String> {
+    let mut lines: Vec<(&str, String)> = Vec::new();
+    for (id, text) in functions {
+        let quoted: Vec<String> = text.split('\n').map(quoted).collect();
+        lines.push((id, format!("[\n      {}\n    ]", quoted.join(",\n      "))));
+    }
+    if let Some(Plain::Object(kept)) = kept {
+        let others = kept.iter().filter(|(id, _)| !functions.contains_key(*id));
+        lines.extend(others.map(|(id, raw)| (id.as_str(), plain_json(raw))));
+        lines.sort_by(|a, b| a.0.cmp(b.0));
+    }
+    lines.into_iter().map(|(id, json)| format!("{}: {json}", quoted(id))).collect()
 }
 
 fn surface_json(document: &Document) -> Option<String> {

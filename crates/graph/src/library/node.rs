@@ -7,7 +7,7 @@ use super::signature::{ArgumentType, ResultType, Signature, Signatures};
 use super::{LibraryProblem, Source, line_of};
 use crate::context::context;
 use crate::method::term;
-use crate::node_def::{Argument, Default, Function, Input, NodeDef, Output};
+use crate::node_def::{Argument, Default, Function, Input, NodeDef, Output, REROUTE};
 use crate::value::{SocketType, Type, Value};
 
 /// The struct whose value a material is.
@@ -105,6 +105,7 @@ impl Reader<'_> {
             vertex_function: None,
             method_functions: Vec::new(),
             output_functions: Vec::new(),
+            forwards: doc.id == REROUTE,
         };
         def.function.arguments = self.arguments(doc.line, &signature, &def.inputs);
         self.stand_ins(doc, &mut def);
@@ -142,6 +143,7 @@ impl Reader<'_> {
                     if let Some(default) = self.default(described, *ty) {
                         inputs.push(Input {
                             name: name.clone(),
+                            label: None,
                             ty: *ty,
                             default,
                             range: described.range,
@@ -210,10 +212,10 @@ impl Reader<'_> {
         let help = doc.result.as_ref().map_or(String::new(), |(_, help)| help.clone());
         match &signature.result {
             ResultType::Struct { name, .. } if name == SURFACE_STRUCT => {
-                vec![Output { name: "out".into(), ty: SocketType::Surface, help }]
+                vec![Output { name: "out".into(), label: None, ty: SocketType::Surface, help }]
             }
             ResultType::Plain(ArgumentType::Socket(ty @ (SocketType::Value(_) | SocketType::Generic))) => {
-                vec![Output { name: "out".into(), ty: *ty, help }]
+                vec![Output { name: "out".into(), label: None, ty: *ty, help }]
             }
             ResultType::Struct { name, members } => {
                 if let Some((line, _)) = &doc.result {
@@ -226,7 +228,12 @@ impl Reader<'_> {
                 for member in members {
                     match member.ty {
                         ArgumentType::Socket(ty @ (SocketType::Value(_) | SocketType::Generic)) => {
-                            outputs.push(Output { name: member.name.clone(), ty, help: member.help.clone() });
+                            outputs.push(Output {
+                                name: member.name.clone(),
+                                label: None,
+                                ty,
+                                help: member.help.clone(),
+                            });
                         }
                         _ => self.slip(doc.line, format!("no socket has the type of `{name}.{}`", member.name)),
                     }

@@ -108,6 +108,40 @@ impl Signatures {
 /// A place in the joined text and what is wrong there.
 type ParseError = (usize, String);
 
+/// Parses and validates a text by itself, on a large stack. The text's nesting is bounded before.
+///
+/// # Errors
+/// What naga has against it, and at which byte.
+pub(super) fn judge(text: &str) -> Result<(), (usize, String)> {
+    let work = || {
+        let module = parse(text)?;
+        let too_large = module.types.iter().find(|(_, ty)| ty.inner.size(module.to_ctx()) > MAX_TYPE_BYTES);
+        if let Some((handle, _)) = too_large {
+            let at = module.types.get_span(handle).to_range().map_or(0, |range| range.start);
+            return Err((at, "a value of this type is too large".into()));
+        }
+        let mut validator =
+            naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+        validator.validate(&module).map(|_| ()).map_err(|e| {
+            let at = e.spans().filter_map(|(span, _)| span.to_range()).map(|range| range.start).last().unwrap_or(0);
+            let mut message = e.as_inner().to_string();
+            let mut source = std::error::Error::source(e.as_inner());
+            while let Some(cause) = source {
+                message = format!("{message}: {cause}");
+                source = cause.source();
+            }
+            (at, message)
+        })
+    };
+    std::thread::scope(|scope| match std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work) {
+        Ok(worker) => worker.join().unwrap_or_else(|_| Err((0, "the WGSL parser failed".into()))),
+        Err(e) => Err((0, format!("no thread to parse in: {e}"))),
+    })
+}
+
+/// Largest value that a document's function may handle.
+const MAX_TYPE_BYTES: u32 = 64 << 10;
+
 fn locate((at, message): ParseError, sources: &[Source], joined: &str) -> LibraryProblem {
     let mut line = line_of(joined, at.min(joined.len()));
     for source in sources {
@@ -120,16 +154,20 @@ fn locate((at, message): ParseError, sources: &[Source], joined: &str) -> Librar
     LibraryProblem { file: sources.last().map_or("", |s| s.path).into(), line, message }
 }
 
-fn read_module(text: &str) -> Result<HashMap<String, Signature>, ParseError> {
+fn parse(text: &str) -> Result<naga::Module, ParseError> {
     let mut options = naga::front::wgsl::Options::new();
     options.parse_doc_comments = true;
-    let module = naga::front::wgsl::Frontend::new_with_options(options).parse(text).map_err(|e| {
+    naga::front::wgsl::Frontend::new_with_options(options).parse(text).map_err(|e| {
         let at = e.location(text).map_or(0, |location| location.offset as usize);
         let notes: Vec<&str> = e.labels().map(|(_, label)| label).filter(|label| !label.is_empty()).collect();
         let message =
             if notes.is_empty() { e.message().into() } else { format!("{} ({})", e.message(), notes.join("; ")) };
         (at, message)
-    })?;
+    })
+}
+
+fn read_module(text: &str) -> Result<HashMap<String, Signature>, ParseError> {
+    let module = parse(text)?;
     let mut implicit = Vec::with_capacity(module.functions.len());
     let mut signatures = HashMap::new();
     for (_, function) in module.functions.iter() {

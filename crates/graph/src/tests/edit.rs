@@ -40,6 +40,7 @@ fn any_edit() -> impl Strategy<Value = Edit> {
     let of_groups = prop_oneof![
         ("[gh]", any_group()).prop_map(|(id, group)| Edit::AddGroup { id, group: Box::new(group) }),
         "[gh]".prop_map(|id| Edit::RemoveGroup { id }),
+        ("[st]", prop::option::of(".{0,3}|a\nb")).prop_map(|(id, text)| Edit::SetFunction { id, text }),
         ("[gh]", any_interface()).prop_map(|(group, interface)| Edit::SetInterface { group, interface }),
     ];
     let any = prop_oneof![4 => single, 1 => of_view, 1 => of_groups];

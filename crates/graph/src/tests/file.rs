@@ -59,6 +59,13 @@ const RUST: &str = r##"{
       "links": []
     }
   },
+  "functions": {
+    "stripes": [
+      "/// Stripes",
+      "fn f() -> f32 { return 1.0; }",
+      ""
+    ]
+  },
   "layout": {
     "mask": [-10, 0.5],
     "rust": [0, 0]
@@ -117,6 +124,7 @@ fn files_come_back_as_they_were() {
     assert_eq!(d.graph.frames["f1"].color, Some([10, 128, 255]));
     assert_eq!(d.graph.frames["f1"].rect, Rect { position: [-20.0, 0.5], size: [300.0, 200.0] });
     assert_eq!(d.graph.comments["c1"].text, "see\nthe photo");
+    assert_eq!(d.functions["stripes"], "/// Stripes\nfn f() -> f32 { return 1.0; }\n");
     let band = &d.groups["band"];
     assert_eq!((band.interface.inputs.len(), band.interface.outputs[0].name.as_str()), (4, "out"));
     assert_eq!(band.graph.links, [link("in.x", "output.out")]);

@@ -16,7 +16,7 @@ fn problems(files: &[(&str, &str)]) -> Vec<String> {
 #[test]
 fn the_standard_library_is_read_whole() {
     let library = Library::standard();
-    assert!(library.iter().len() >= 60, "{} nodes", library.iter().len());
+    assert!(library.iter().count() >= 60, "{} nodes", library.iter().count());
     assert!(library.get("surface/surface").is_some());
     for def in library.iter().filter(|def| def.vertex_function.is_none() && def.function.implicit_derivatives) {
         println!("{} works in the fragment stage only", def.id);
@@ -31,6 +31,7 @@ fn a_generic_node_is_read() {
     assert_eq!(def.generic, [Type::F32, Type::Vec2, Type::Vec3, Type::Vec4]);
     assert_eq!(def.outputs[0].ty, SocketType::Generic);
     let input = |name: &str, ty, default: f32, range| Input {
+        label: None,
         name: name.into(),
         ty,
         default: Default::Value(Value::Number(default)),
@@ -178,7 +179,7 @@ fn the_same_node_twice_is_refused_and_hostile_text_is_survived() {
 fn the_documents_name_everything() {
     let markdown = docs::nodes_markdown(small());
     let json = docs::nodes_json(small());
-    assert_eq!(json["nodes"].as_array().map(Vec::len), Some(small().iter().len()));
+    assert_eq!(json["nodes"].as_array().map(Vec::len), Some(small().iter().count()));
     for def in small().iter() {
         assert!(markdown.contains(&format!("### {}\n\n`{}`", def.label, def.id)));
         assert!(def.inputs.iter().all(|input| markdown.contains(&format!("| `{}` |", input.name))));

@@ -113,11 +113,11 @@ pub(super) fn judge(trace: &Trace<'_>) -> Result<Stability, StabilityError> {
         }
     }
     let wrong: BTreeSet<NodeId> = unstable.keys().cloned().collect();
-    stability.unstable = unstable.into_values().filter(|f| !has_source(trace.document, &f.node, &wrong)).collect();
+    stability.unstable = unstable.into_values().filter(|f| !has_source(&trace.flat, &f.node, &wrong)).collect();
     let jumping: BTreeSet<NodeId> = edges.keys().chain(&wrong).cloned().collect();
     stability.edges = edges
         .into_values()
-        .filter(|f| !wrong.contains(&f.node) && !has_source(trace.document, &f.node, &jumping))
+        .filter(|f| !wrong.contains(&f.node) && !has_source(&trace.flat, &f.node, &jumping))
         .collect();
     Ok(stability)
 }

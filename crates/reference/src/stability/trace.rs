@@ -1,5 +1,6 @@
 //! All nodes of a material at once: `material(context)` with every node's outputs as its result.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -9,6 +10,7 @@ use halfvector_codegen::reflection::{Resource, TextureSource, UniformBlock, Unif
 use halfvector_codegen::uniforms::fill_input;
 use halfvector_graph::check::node_label;
 use halfvector_graph::document::{Document, NodeId};
+use halfvector_graph::flatten::flatten;
 use halfvector_graph::library::Library;
 use halfvector_interp::{Column, Derivatives, Entry, Float, Limits, Outputs, Program, Resources, Sampler, Texture};
 use halfvector_scene::{Scene, SceneMaterial};
@@ -19,7 +21,9 @@ use crate::stability::StabilityError;
 
 /// A material that tells what its nodes compute.
 pub(super) struct Trace<'d> {
-    pub(super) document: &'d Document,
+    document: &'d Document,
+    /// The same with its groups taken apart: nodes have the ids that the shader names.
+    pub(super) flat: Cow<'d, Document>,
     program: Program,
     /// Each scalar of the result.
     pub(super) values: Vec<Value>,
@@ -71,10 +75,11 @@ impl<'d> Trace<'d> {
             .map_err(|error| wrong(error.as_inner().to_string()))?;
         let program = Program::compile(&module, &info, Entry::Function("trace"))
             .map_err(|error| StabilityError::Run { material: document.name.clone(), why: error.to_string() })?;
+        let flat = flatten(document, Library::standard()).map_err(|error| wrong(error.to_string()))?.document;
         let mut values = Vec::new();
         let mut group = 0;
         for Named { node, outputs } in &named {
-            let label = node_label(&document.graph, Library::standard(), node);
+            let label = node_label(&flat.graph, Library::standard(), node);
             for (output, _, components) in outputs {
                 for component in 0..*components {
                     let output = if *components == 1 {
@@ -89,6 +94,7 @@ impl<'d> Trace<'d> {
         }
         let mut trace = Trace {
             document,
+            flat,
             program,
             values,
             block: None,

@@ -151,3 +151,14 @@ pub(super) fn color(value: &Spanned, place: &str) -> Result<[u8; 3], Wrong> {
         None => wrong(value.at, place, format!("\"{written}\" is no colour; write it as \"#rrggbb\"")),
     }
 }
+
+/// A text of several lines: a list of them, or one text.
+pub(super) fn lines(value: &Spanned, place: &str) -> Result<String, Wrong> {
+    match &value.json {
+        Json::Array(lines) => {
+            let lines: Vec<&str> = lines.iter().map(|line| text_of(line, place)).collect::<Result<_, _>>()?;
+            Ok(lines.join("\n"))
+        }
+        _ => text_of(value, place).map(str::to_string),
+    }
+}

@@ -1,19 +1,20 @@
 //! Groups as text.
 
+use std::collections::BTreeMap;
+
 use serde_json::Value as Plain;
 
 use super::value::{numbers, plain_json, push_unknown, quoted, value_json};
 use super::{block, graph};
-use crate::document::{Document, Group, GroupInput, GroupOutput};
+use crate::document::{Group, GroupInput, GroupOutput};
 use crate::node_def::Default as InputDefault;
 use crate::value::{ColorSpace, SocketType};
 
-/// The groups of a document in order of id, each over several lines.
-pub(super) fn lines(document: &Document) -> Vec<String> {
-    let mut lines: Vec<(&str, String)> =
-        document.groups.iter().map(|(id, group)| (id.as_str(), group_json(group, 4))).collect();
-    if let Some(Plain::Object(kept)) = document.unknown.get("groups") {
-        let others = kept.iter().filter(|(id, _)| !document.groups.contains_key(*id));
+/// Groups in order of id, each over several lines, with those that were kept.
+pub(super) fn lines(groups: &BTreeMap<String, Group>, kept: Option<&Plain>) -> Vec<String> {
+    let mut lines: Vec<(&str, String)> = groups.iter().map(|(id, group)| (id.as_str(), group_json(group, 4))).collect();
+    if let Some(Plain::Object(kept)) = kept {
+        let others = kept.iter().filter(|(id, _)| !groups.contains_key(*id));
         lines.extend(others.map(|(id, raw)| (id.as_str(), plain_json(raw))));
         lines.sort_by(|a, b| a.0.cmp(b.0));
     }

@@ -1,0 +1,68 @@
+//! Functions of the user's own in a shader.
+
+use halfvector_graph::document::Document;
+use halfvector_graph::library::Library;
+
+use super::{document, environment, exported, made, sun};
+use crate::{CodegenError, Fold, Origin, material, shader, validate};
+
+/// A document of one function `f(x) -> f32` that feeds the roughness.
+fn with(function: &str) -> Document {
+    let mut document = super::material(
+        "",
+        r#""n": {"node": "custom/f", "label": "Mine", "values": {"x": 0.25}}"#,
+        r#"{"from": "n.out", "to": "surface.perceptual_roughness"}"#,
+    );
+    document.functions.insert("f".into(), function.into());
+    document
+}
+
+#[test]
+fn a_function_of_the_users_is_linked_with_what_it_calls() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/custom-wgsl.material.json");
+    let document = document(&std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{path}: {e}")));
+    for fold in [Fold::Live, Fold::Export] {
+        let shader = made(&document, &environment(), fold);
+        for name in [
+            "fn node_custom_tartan(",
+            "fn custom_tartan_sett(",
+            "const custom_tartan_BANDS",
+            "struct custom_tartan_Tartan",
+        ] {
+            assert_eq!(shader.wgsl.matches(name).count(), 1, "{name}\n{}", shader.wgsl);
+        }
+        assert!(shader.wgsl.contains("// ---- custom/tartan") && !shader.wgsl.contains("@also"), "{}", shader.wgsl);
+        assert!(shader.segments.iter().any(|s| s.origin == Origin::Library("custom/tartan".into())));
+        assert!(shader.segments.iter().any(|s| s.origin == Origin::Node("tartan".into())));
+    }
+    let alone = material(&document, Library::standard(), &sun().methods).unwrap_or_else(|e| panic!("{e}"));
+    validate(&alone).unwrap_or_else(|e| panic!("{e}\n{}", alone.wgsl));
+}
+
+/// A function that no node uses is not in the shader; a constant one is folded away.
+#[test]
+fn nothing_of_it_stays_that_is_not_needed() {
+    let document = with(
+        "/// F\n///\n/// Twice.\n/// @node custom/f\n/// - x: number [0]\nfn twice(x: f32) -> f32 {\n    var s = 0.0;\n    for (var i = 0; i < 2; i++) { s += x; }\n    return s;\n}\n",
+    );
+    let folded = exported(&document, &sun()).wgsl;
+    assert!(!folded.contains("custom"), "{folded}");
+    assert!(folded.contains("0.5"), "{folded}");
+    let live = made(&document, &sun(), Fold::Live).wgsl;
+    assert!(live.contains("let mine = node_custom_f("), "{live}");
+    let mut unused = document.clone();
+    unused.graph.links.clear();
+    assert!(!made(&unused, &sun(), Fold::Live).wgsl.contains("custom"));
+}
+
+#[test]
+fn an_error_in_it_is_told_with_a_caret() {
+    let document = with(
+        "/// F\n///\n/// Twice.\n/// @node custom/f\n/// - x: number [0]\nfn twice(x: f32) -> f32 {\n    return x * y;\n}\n",
+    );
+    let error = shader(&document, Library::standard(), &sun(), Fold::Export).expect_err("an unknown name");
+    assert!(matches!(error, CodegenError::Problems(_)));
+    let told = error.to_string();
+    assert!(told.contains("the function `f`, line 7, column 16: "), "{told}");
+    assert!(told.contains("\n        return x * y;\n                   ^"), "{told}");
+}

@@ -1,0 +1,464 @@
+//! Functions that a document brings along: WGSL of its user, read by the grammar of the library. It is hostile until it is
+//! checked: nothing of it goes on that could hang, overflow or reach beyond its arguments.
+//!
+//! Allowed are functions, structs, constants and aliases without attributes, 64 KiB of them, that use WGSL's own
+//! functions and each other. Loops count to a number that stands in the text, and all of them together run at most
+//! [`MAX_WORK`] times. Textures are read with an explicit level or gradient, since a node may stand in a branch. The names get the
+//! function's id as prefix, so that none shadows anything.
+
+use std::collections::{HashMap, HashSet};
+use std::fmt;
+use std::sync::{Arc, Mutex, OnceLock};
+
+use halfvector_shaders::{Item, ItemKind, Token, TokenKind, slice, tokens};
+
+use super::signature::judge;
+use super::{Library, line_of};
+use crate::document::is_name;
+use crate::node_def::NodeDef;
+
+/// Longest text, in bytes.
+pub const MAX_BYTES: usize = 64 << 10;
+/// Most turns of loops and calls in one evaluation of the node.
+pub const MAX_WORK: u64 = 1 << 16;
+/// Largest number in the head of a loop: far from where a counter would wrap around.
+const MAX_COUNT: u64 = 1 << 20;
+/// Longest array.
+const MAX_ARRAY: u64 = 256;
+
+/// What is wrong with a document's function, and where in its text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CodeError {
+    /// From 1.
+    pub line: usize,
+    /// In characters, from 1.
+    pub column: usize,
+    /// What is wrong and what to do.
+    pub message: String,
+    /// The line.
+    pub excerpt: String,
+}
+
+impl fmt::Display for CodeError {
+    /// The message, and below it the line with a caret under the place.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let before = self.excerpt.chars().take(self.column - 1);
+        let margin: String = before.map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+        write!(f, "line {}, column {}: {}\n    {}\n    {margin}^", self.line, self.column, self.message, self.excerpt)
+    }
+}
+
+/// A function of a document that has passed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CustomFunction {
+    /// The node that it is: `custom/<id>`.
+    pub def: NodeDef,
+    /// The text with the names that it has in a shader.
+    pub source: String,
+}
+
+/// Reads a function of a document by its id. Answers are remembered, so that asking again costs nothing.
+///
+/// # Errors
+/// The first thing that is wrong.
+pub fn read_function(id: &str, text: &str) -> Result<Arc<CustomFunction>, CodeError> {
+    type Known = HashMap<(String, String), Result<Arc<CustomFunction>, CodeError>>;
+    static KNOWN: OnceLock<Mutex<Known>> = OnceLock::new();
+    /// So many texts are remembered, all of them forgotten when there are more: typing makes a new one with each key.
+    const MAX_KNOWN: usize = 64;
+    let known = KNOWN.get_or_init(Mutex::default);
+    let key = (id.to_string(), text.to_string());
+    if let Some(answer) = known.lock().ok().and_then(|known| known.get(&key).cloned()) {
+        return answer;
+    }
+    let answer = read(id, text).map(Arc::new);
+    if let Ok(mut known) = known.lock() {
+        if known.len() >= MAX_KNOWN {
+            known.clear();
+        }
+        known.insert(key, answer.clone());
+    }
+    answer
+}
+
+/// An error at a byte of the text.
+fn error_at(text: &str, at: usize, message: impl Into<String>) -> CodeError {
+    let at = (0..=at.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
+    let start = text[..at].rfind('\n').map_or(0, |end| end + 1);
+    let line = text[start..].lines().next().unwrap_or("");
+    // A line may be as long as the text: what stands around the place is enough.
+    const SHOWN: usize = 120;
+    let column = text[start..at].chars().count();
+    let skipped = column.saturating_sub(SHOWN / 2);
+    CodeError {
+        line: line_of(text, at),
+        column: column - skipped + 1,
+        message: message.into(),
+        excerpt: line
+            .chars()
+            .skip(skipped)
+            .take(SHOWN)
+            .map(|c| if c.is_control() && c != '\t' { ' ' } else { c })
+            .collect(),
+    }
+}
+
+fn read(id: &str, text: &str) -> Result<CustomFunction, CodeError> {
+    let fail = |at: usize, message: String| Err(error_at(text, at, message));
+    if !is_name(id) || id.bytes().any(|b| b.is_ascii_uppercase()) {
+        return fail(0, "the function's id is small letters, digits and _, first a letter".into());
+    }
+    if text.len() > MAX_BYTES {
+        return fail(MAX_BYTES, format!("the text is longer than {} KiB", MAX_BYTES >> 10));
+    }
+    let items = slice(text).map_err(|e| {
+        let message = e.to_string();
+        let message = message.split_once(": ").map_or(message.as_str(), |(_, message)| message);
+        error_at(text, e.offset, message)
+    })?;
+    let code: Vec<Token> = tokens(text).into_iter().filter(|token| !token.kind.is_comment()).collect();
+    refuse_items(text, &items)?;
+    refuse_words(text, &code)?;
+    refuse_structs_in_structs(text, &items)?;
+    work(text, &items, &code)?;
+    if halfvector_shaders::generic_types(text).is_some() {
+        return fail(0, "a function of a document has fixed types; leave out `//! T =`".into());
+    }
+    judge(text).map_err(|(at, message)| error_at(text, at, message))?;
+    let main = main_function(id, text, &items)?;
+    let source = prefixed(id, text, &items, &main);
+    let library = Library::parse(&[(&format!("nodes/custom/{id}.wgsl"), &source)]).map_err(|e| {
+        let problem = &e.problems[0];
+        let line = text.split_inclusive('\n').take(problem.line.saturating_sub(1)).map(str::len).sum();
+        error_at(text, line, problem.message.clone())
+    })?;
+    let Some(mut def) = library.get(&format!("custom/{id}")).cloned() else {
+        return fail(0, format!("write `/// @node custom/{id}` above the function that is the node"));
+    };
+    def.file = format!("custom/{id}");
+    if def.function.implicit_derivatives {
+        let at = items.iter().find(|item| item.name == main).map_or(0, |item| item.code_start);
+        return fail(
+            at,
+            "it compares neighbouring pixels, which fails in a branch: read textures with textureSampleLevel or textureSampleGrad, and take no derivatives".into(),
+        );
+    }
+    Ok(CustomFunction { def, source })
+}
+
+fn refuse_items(text: &str, items: &[Item]) -> Result<(), CodeError> {
+    if items.is_empty() {
+        return Err(error_at(text, 0, "there is no function"));
+    }
+    let mut names = HashSet::new();
+    for item in items {
+        if item.kind == ItemKind::Var {
+            return Err(error_at(
+                text,
+                item.code_start,
+                "a node has no variables, bindings or overrides of its own; make it an argument, or a `const`",
+            ));
+        }
+        if item.name == "T" {
+            return Err(error_at(
+                text,
+                item.name_range.start,
+                "`T` is the library's name for any type; choose another name",
+            ));
+        }
+        if !names.insert(item.name.as_str()) {
+            return Err(error_at(text, item.name_range.start, format!("`{}` stands twice", item.name)));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses what reaches beyond arguments and results, and what need not end.
+fn refuse_words(text: &str, code: &[Token]) -> Result<(), CodeError> {
+    let word = |i: usize| code.get(i).map_or("", |token| token.text(text));
+    for (i, token) in code.iter().enumerate() {
+        let message = match token.text(text) {
+            "@" => "attributes such as entry points and bindings are no part of a node; leave it out",
+            "loop" | "while" => "a loop that need not end; write `for (var i = 0; i < 8; i++)`",
+            "discard" => "a node gives values and cannot discard; feed the surface's opacity instead",
+            "ptr" | "atomic" | "override" => "a node works on values only; leave it out",
+            word if word.ends_with("Barrier") => "a node has no others to wait for; leave it out",
+            "array" if word(i + 1) == "<" => {
+                if let Some(message) = array_problem(&word, i) {
+                    message
+                } else {
+                    continue;
+                }
+            }
+            _ => continue,
+        };
+        // `x.loop` is no loop, but WGSL has no such member either.
+        return Err(error_at(text, token.start, message));
+    }
+    Ok(())
+}
+
+/// What is wrong with the array type whose name is word `i`.
+fn array_problem<'t>(word: &impl Fn(usize) -> &'t str, i: usize) -> Option<&'static str> {
+    const ELEMENTS: [&str; 13] =
+        ["f32", "i32", "u32", "bool", "vec2f", "vec3f", "vec4f", "vec2i", "vec3i", "vec4i", "vec2u", "vec3u", "vec4u"];
+    if !ELEMENTS.contains(&word(i + 2)) {
+        return Some("an array holds f32, i32, u32, bool or vectors such as vec3f");
+    }
+    let size = integer(word(i + 4)).filter(|_| word(i + 3) == "," && word(i + 5) == ">");
+    match size {
+        Some(size) if size <= MAX_ARRAY => None,
+        _ => Some("an array has a number of elements that stands in its type, at most 256: `array<f32, 8>`"),
+    }
+}
+
+/// The value of a decimal integer literal.
+fn integer(word: &str) -> Option<u64> {
+    word.trim_end_matches(['i', 'u']).parse().ok()
+}
+
+/// The size of a struct of structs of structs grows beyond all bounds.
+fn refuse_structs_in_structs(text: &str, items: &[Item]) -> Result<(), CodeError> {
+    let types: HashSet<&str> = items
+        .iter()
+        .filter(|item| matches!(item.kind, ItemKind::Struct | ItemKind::Alias))
+        .map(|item| item.name.as_str())
+        .collect();
+    for item in items.iter().filter(|item| item.kind == ItemKind::Struct) {
+        let inner = item.references.iter().find(|range| types.contains(&text[(*range).clone()]));
+        if let Some(range) = inner {
+            return Err(error_at(text, range.start, "a struct has numbers, vectors, matrices and arrays as members"));
+        }
+    }
+    Ok(())
+}
+
+/// A loop's turns, and the byte at which its body ends.
+struct Turns {
+    count: u64,
+    until: usize,
+}
+
+/// Refuses loops that are not counted, and more turns and calls than [`MAX_WORK`].
+fn work(text: &str, items: &[Item], code: &[Token]) -> Result<(), CodeError> {
+    let constants: HashMap<&str, u64> = items
+        .iter()
+        .filter(|item| item.kind == ItemKind::Const)
+        .filter_map(|item| {
+            let (_, value) = text[item.name_range.end..item.end].split_once('=')?;
+            Some((item.name.as_str(), integer(value.split(';').next()?.trim())?))
+        })
+        .collect();
+    // By place, for a local of the same name is another thing.
+    let references = items.iter().flat_map(|item| &item.references);
+    let constants: HashMap<usize, u64> =
+        references.filter_map(|range| Some((range.start, *constants.get(&text[range.clone()])?))).collect();
+    let functions: Vec<&Item> = items.iter().filter(|item| item.kind == ItemKind::Fn).collect();
+    let number: HashMap<&str, usize> = functions.iter().enumerate().map(|(i, item)| (item.name.as_str(), i)).collect();
+    let mut calls: Vec<Vec<(usize, u64)>> = Vec::new();
+    let mut own: Vec<u64> = Vec::new();
+    for item in &functions {
+        let first = code.partition_point(|token| token.start < item.name_range.end);
+        let last = code.partition_point(|token| token.start < item.end);
+        let (turns, called) = function_work(text, &code[first..last], &constants, &number)?;
+        own.push(turns);
+        calls.push(called);
+    }
+    // Callees before callers; a ring is left to the judge, who names it.
+    let mut total: Vec<Option<u64>> = vec![None; functions.len()];
+    for root in 0..functions.len() {
+        let mut path = vec![(root, 0)];
+        let mut on_path: HashSet<usize> = HashSet::from([root]);
+        while let Some((at, next)) = path.last_mut() {
+            let at = *at;
+            if let Some((callee, _)) = calls[at].get(*next) {
+                *next += 1;
+                if total[*callee].is_none() && on_path.insert(*callee) {
+                    path.push((*callee, 0));
+                }
+                continue;
+            }
+            let sum = calls[at].iter().fold(own[at], |sum, (callee, times)| {
+                sum.saturating_add(times.saturating_mul(total[*callee].unwrap_or(1)))
+            });
+            total[at] = Some(sum);
+            if sum > MAX_WORK {
+                let message = format!(
+                    "it takes {sum} turns of loops and calls for each pixel; {MAX_WORK} are the most that a node may take"
+                );
+                return Err(error_at(text, functions[at].code_start, message));
+            }
+            on_path.remove(&at);
+            path.pop();
+        }
+    }
+    Ok(())
+}
+
+/// The turns of a function's loops, and what it calls how often.
+fn function_work(
+    text: &str,
+    code: &[Token],
+    constants: &HashMap<usize, u64>,
+    functions: &HashMap<&str, usize>,
+) -> Result<(u64, Vec<(usize, u64)>), CodeError> {
+    let mut loops: Vec<Turns> = Vec::new();
+    let mut own: u64 = 1;
+    let mut calls = Vec::new();
+    let times = |loops: &[Turns]| loops.iter().fold(1, |product: u64, turns| product.saturating_mul(turns.count));
+    for (i, token) in code.iter().enumerate() {
+        loops.retain(|turns| token.start < turns.until);
+        let word = token.text(text);
+        if word == "for" {
+            let turns = for_turns(text, code, i, constants)?;
+            loops.push(turns);
+            own = own.saturating_add(times(&loops));
+        } else if let Some(callee) = functions.get(word)
+            && code.get(i + 1).is_some_and(|next| next.text(text) == "(")
+        {
+            calls.push((*callee, times(&loops)));
+        }
+    }
+    Ok((own, calls))
+}
+
+/// The turns of the `for` at token `at`: `for (var i = 0; i < 8; i++) {...}`, whose body leaves `i` alone.
+fn for_turns(text: &str, code: &[Token], at: usize, constants: &HashMap<usize, u64>) -> Result<Turns, CodeError> {
+    let wrong = |i: usize, message: &str| {
+        let place = code.get(i).map_or(text.len(), |token| token.start);
+        Err(error_at(text, place, message))
+    };
+    const SHAPE: &str = "a loop counts to a number that stands in the text: `for (var i = 0; i < 8; i++)`";
+    let word = |i: usize| code.get(i).map_or("", |token| token.text(text));
+    let number = |i: usize| {
+        let constant = || constants.get(&code.get(i)?.start).copied();
+        integer(word(i)).or_else(constant).filter(|number| *number <= MAX_COUNT)
+    };
+    if word(at + 1) != "(" || word(at + 2) != "var" {
+        return wrong(at, SHAPE);
+    }
+    let counter = word(at + 3);
+    let mut i = at + 4;
+    if word(i) == ":" && matches!(word(i + 1), "i32" | "u32") {
+        i += 2;
+    }
+    let (Some(start), "=", ";") = (number(i + 1), word(i), word(i + 2)) else { return wrong(i, SHAPE) };
+    i += 3;
+    if word(i) != counter || word(i + 1) != "<" {
+        return wrong(i, SHAPE);
+    }
+    let includes = word(i + 2) == "=";
+    i += if includes { 3 } else { 2 };
+    let (Some(end), ";") = (number(i), word(i + 1)) else { return wrong(i, SHAPE) };
+    i += 2;
+    let step = match (word(i) == counter, word(i + 1), word(i + 2)) {
+        (true, "+", "+") => {
+            i += 3;
+            1
+        }
+        (true, "+", "=") => match number(i + 3) {
+            Some(step) if step > 0 => {
+                i += 4;
+                step
+            }
+            _ => return wrong(i + 3, SHAPE),
+        },
+        _ => return wrong(i, SHAPE),
+    };
+    if word(i) != ")" || word(i + 1) != "{" {
+        return wrong(i, SHAPE);
+    }
+    let mut depth = 0usize;
+    for j in i + 1..code.len() {
+        match word(j) {
+            "{" => depth += 1,
+            "}" if depth == 1 => {
+                let count = (end.saturating_add(u64::from(includes))).saturating_sub(start).div_ceil(step);
+                return Ok(Turns { count, until: code[j].end });
+            }
+            "}" => depth -= 1,
+            name if name == counter && changes(text, code, j) => {
+                return wrong(
+                    j,
+                    "the loop's counter is changed in its body, so that it need not end; use another variable",
+                );
+            }
+            _ => {}
+        }
+    }
+    wrong(at, SHAPE)
+}
+
+/// Whether the name at token `at` is declared again, assigned to, or its address is taken.
+fn changes(text: &str, code: &[Token], at: usize) -> bool {
+    let word = |i: usize| code.get(i).map_or("", |token| token.text(text));
+    let before = |back: usize| at.checked_sub(back).map_or("", word);
+    if before(1) == "." {
+        return false;
+    }
+    let is_operand = |i: Option<&Token>| {
+        i.is_some_and(|token| token.kind != TokenKind::Punctuation || matches!(token.text(text), ")" | "]"))
+            && !matches!(i.map_or("", |token| token.text(text)), "return")
+    };
+    let address = before(1) == "&" && !is_operand(at.checked_sub(2).and_then(|i| code.get(i)));
+    let declared = matches!(before(1), "var" | "let" | "const");
+    let after = (word(at + 1), word(at + 2), word(at + 3));
+    let assigned = match after {
+        ("=", next, _) => next != "=",
+        ("+" | "-" | "*" | "/" | "%" | "&" | "|" | "^", "=", _) => true,
+        ("+", "+", _) | ("-", "-", _) => code[at + 2].start == code[at + 1].end,
+        ("<", "<", "=") | (">", ">", "=") => true,
+        _ => false,
+    };
+    address || declared || assigned
+}
+
+/// The name of the function that is the node.
+fn main_function(id: &str, text: &str, items: &[Item]) -> Result<String, CodeError> {
+    let wanted = format!("write `/// @node custom/{id}` above the function that is the node");
+    let mut main = None;
+    for item in items.iter().filter(|item| item.kind == ItemKind::Fn) {
+        let mut at = item.start;
+        for line in text[item.start..item.code_start].split_inclusive('\n') {
+            let said = line.trim_start().strip_prefix("///").map(str::trim_start);
+            if let Some(rest) = said.and_then(|line| line.strip_prefix("@node")) {
+                if main.is_some() {
+                    return Err(error_at(text, at, "one function is the node; leave out this `@node`"));
+                }
+                if rest.split_whitespace().next() != Some(&format!("custom/{id}")) {
+                    return Err(error_at(text, at, wanted));
+                }
+                main = Some(item.name.clone());
+            }
+            at += line.len();
+        }
+    }
+    main.ok_or_else(|| error_at(text, 0, wanted))
+}
+
+/// The text with its names in a shader; lines stay where they are.
+fn prefixed(id: &str, text: &str, items: &[Item], main: &str) -> String {
+    let new: HashMap<&str, String> = items
+        .iter()
+        .map(|item| {
+            let name =
+                if item.name == main { format!("node_custom_{id}") } else { format!("custom_{id}_{}", item.name) };
+            (item.name.as_str(), name)
+        })
+        .collect();
+    let mut places: Vec<_> = items
+        .iter()
+        .flat_map(|item| item.references.iter().chain([&item.name_range]))
+        .filter_map(|range| Some((range.clone(), new.get(&text[range.clone()])?)))
+        .collect();
+    places.sort_by_key(|(range, _)| range.start);
+    let mut out = String::with_capacity(text.len());
+    let mut at = 0;
+    for (range, name) in places {
+        out.push_str(&text[at..range.start]);
+        out.push_str(name);
+        at = range.end;
+    }
+    out.push_str(&text[at..]);
+    out
+}

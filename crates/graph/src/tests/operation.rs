@@ -1,0 +1,237 @@
+//! What an editor does in one step.
+
+use proptest::prelude::*;
+
+use super::{any_document, document, link, small, socket};
+use crate::check::{Severity, check};
+use crate::document::{Document, Group, GroupOutput, Node, Parameter};
+use crate::edit::{Edit, apply};
+use crate::file::{from_json, group_from_json, group_to_json, to_json};
+use crate::operation::{
+    can_connect, collapse, copy, export_group, import_group, insert_on_link, paste, remove_and_heal, ungroup,
+};
+use crate::value::{Type, Value};
+
+/// Noise-like chain: c -> m -> n -> surface, m -> surface too.
+fn chain() -> Document {
+    let nodes = [("c", "vector/combine"), ("m", "math/mix"), ("n", "math/mix"), ("s", "vector/separate")];
+    let mut d = document(
+        &nodes,
+        &[
+            ("s.x", "c.x"),
+            ("c.out", "m.a"),
+            ("m.out", "n.a"),
+            ("c.out", "n.b"),
+            ("n.out", "surface.base_color"),
+            ("m.out", "surface.normal"),
+        ],
+    );
+    for (i, (id, _)) in nodes.iter().enumerate() {
+        d.graph.layout.insert(id.to_string(), [100.0 * i as f32, 10.0]);
+    }
+    d.graph.nodes.get_mut("m").expect("m").values.insert("t".into(), Value::Number(0.25));
+    d.parameters.push(Parameter { name: "weight".into(), label: None, socket: socket("m.t"), range: None });
+    d
+}
+
+fn ids(ids: &[&str]) -> Vec<String> {
+    ids.iter().map(|id| id.to_string()).collect()
+}
+
+/// Makes the edit, checks the document, and that undoing gives the same file.
+#[track_caller]
+fn made(d: &Document, edit: &Edit) -> Document {
+    let mut after = d.clone();
+    let undo = apply(&mut after, edit).expect("an edit that can be made");
+    let mut back = after.clone();
+    apply(&mut back, &undo).expect("an inverse");
+    assert_eq!(to_json(&back), to_json(d));
+    let errors =
+        |d: &Document| check(d, small()).into_iter().filter(|p| p.severity == Severity::Error).collect::<Vec<_>>();
+    assert!(errors(&after).len() <= errors(d).len(), "{:#?}\n{}", errors(&after), to_json(&after));
+    after
+}
+
+#[test]
+fn a_selection_becomes_a_group_with_its_wires() {
+    let d = chain();
+    let edit = collapse(&d, small(), None, &ids(&["m", "n"]), "Two mixes").expect("a group");
+    let after = made(&d, &edit);
+    let group = &after.groups["two_mixes"];
+    let names =
+        |names: &mut dyn Iterator<Item = (&str, String)>| names.map(|(n, t)| format!("{n}: {t}")).collect::<Vec<_>>();
+    let inputs = names(&mut group.interface.inputs.iter().map(|i| (i.name.as_str(), format!("{:?}", i.ty))));
+    assert_eq!(inputs, ["a: Value(Vec3)", "weight: Value(F32)"], "one wire twice is one input");
+    let outputs = names(&mut group.interface.outputs.iter().map(|o| (o.name.as_str(), format!("{:?}", o.ty))));
+    assert_eq!(outputs, ["out: Vec3", "out_2: Vec3"]);
+    assert_eq!(after.parameters[0].socket, socket("two_mixes.weight"), "the parameter goes along");
+    assert_eq!(after.graph.nodes["two_mixes"].values["weight"], Value::Number(0.25));
+    assert_eq!(after.graph.links.len(), 4);
+    assert_eq!(after.graph.incoming(&socket("surface.base_color")), Some(&socket("two_mixes.out")));
+    assert_eq!(after.graph.layout["two_mixes"], [150.0, 10.0]);
+    assert_eq!(group.graph.layout["inputs"], [100.0 - 240.0, 10.0]);
+    // And back again.
+    let back = made(&after, &ungroup(&after, small(), None, "two_mixes").expect("its nodes"));
+    assert_eq!(back.graph.nodes, d.graph.nodes);
+    assert_eq!(back.parameters, d.parameters);
+    let sorted = |d: &Document| {
+        let mut links = d.graph.links.clone();
+        links.sort();
+        links
+    };
+    assert_eq!(sorted(&back), sorted(&d));
+}
+
+#[test]
+fn what_cannot_become_a_group_says_why() {
+    let d = chain();
+    let why = |nodes: &[&str]| collapse(&d, small(), None, &ids(nodes), "x").expect_err("a refusal").to_string();
+    assert!(why(&["c", "n"]).contains("\u{201c}Mix\u{201d} lies between selected nodes"), "{}", why(&["c", "n"]));
+    assert!(why(&["m", "surface"]).contains("the surface is the end"));
+    assert!(why(&["gone"]).contains("no node is selected"));
+    assert!(ungroup(&d, small(), None, "m").is_err());
+}
+
+#[test]
+fn groups_in_groups_and_inside_of_groups() {
+    let d = chain();
+    let d = made(&d, &collapse(&d, small(), None, &ids(&["c", "m", "n"]), "All").expect("a group"));
+    let d = made(&d, &collapse(&d, small(), Some("all"), &ids(&["m", "n"]), "Some").expect("a group in it"));
+    assert_eq!(d.groups["all"].graph.nodes["some"].node, "group/some");
+    let sockets = collapse(&d, small(), Some("all"), &ids(&["inputs", "c"]), "x").expect_err("a refusal");
+    assert!(sockets.to_string().contains("the sockets of a group stay"));
+    let d = made(&d, &ungroup(&d, small(), Some("all"), "some").expect("taken apart"));
+    assert!(d.groups["all"].graph.nodes.contains_key("n"));
+}
+
+/// A group that changes a type on the way cannot be taken apart without saying so.
+#[test]
+fn taking_apart_never_changes_a_type() {
+    let mut d =
+        document(&[("g", "group/g"), ("s", "vector/separate")], &[("s.x", "g.v"), ("g.out", "surface.base_color")]);
+    let mut group = Group::new("g");
+    group.interface.inputs = vec![crate::document::GroupInput::new("v", Type::Vec3, Value::Number(0.5))];
+    group.interface.outputs = vec![GroupOutput::new("out", Type::Vec3)];
+    group.graph.nodes.insert("in".into(), Node::new("group/input"));
+    group.graph.nodes.insert("m".into(), Node::new("math/mix"));
+    group.graph.links = vec![link("in.v", "m.a"), link("m.out", "output.out")];
+    d.groups.insert("g".into(), group);
+    let why = ungroup(&d, small(), None, "g").expect_err("a refusal").to_string();
+    assert!(why.contains("the group's `v` turns what goes through it into another type"), "{why}");
+    // A number set on it is spread as the group would.
+    d.graph.links.remove(0);
+    d.graph.nodes.get_mut("g").expect("g").values.insert("v".into(), Value::Number(0.25));
+    let after = made(&d, &ungroup(&d, small(), None, "g").expect("its nodes"));
+    assert_eq!(after.graph.nodes["m"].values["a"], Value::Vec3([0.25; 3]));
+}
+
+#[test]
+fn groups_go_into_files_and_other_documents() {
+    let d = chain();
+    let d = made(&d, &collapse(&d, small(), None, &ids(&["c", "m", "n"]), "All").expect("a group"));
+    let d = made(&d, &collapse(&d, small(), Some("all"), &ids(&["m"]), "Part").expect("a group in it"));
+    let file = export_group(&d, "all").expect("a file");
+    assert_eq!(file.groups.keys().collect::<Vec<_>>(), ["all", "part"]);
+    let text = group_to_json(&file);
+    assert_eq!(group_from_json(&text).expect("a file"), file);
+    assert!(group_from_json(&text.replace("\"group\": \"all\"", "\"group\": \"gone\"")).is_err());
+    // Into an empty document, into one that has it, and into one that has another `part`.
+    let (edit, id) = import_group(&document(&[], &[]), &file).expect("an import");
+    let other = made(&document(&[], &[]), &edit);
+    assert_eq!((id.as_str(), &other.groups), ("all", &file.groups));
+    assert_eq!(import_group(&d, &file).expect("an import"), (Edit::Many(vec![]), "all".into()));
+    let mut clash = document(&[], &[]);
+    clash.groups.insert("part".into(), Group::new("Another"));
+    let (edit, id) = import_group(&clash, &file).expect("an import");
+    let after = made(&clash, &edit);
+    assert_eq!(id, "all");
+    assert_eq!(after.groups["part"], clash.groups["part"]);
+    assert_eq!(after.groups["all"].graph.nodes.values().filter(|n| n.node == "group/part_2").count(), 1);
+}
+
+#[test]
+fn nodes_are_copied_with_their_wires() {
+    let d = chain();
+    let text = copy(&d, None, &ids(&["c", "m", "surface"]));
+    let copied = from_json(&text).expect("a document");
+    assert_eq!((copied.graph.nodes.len(), copied.graph.links.len(), copied.parameters.len()), (3, 2, 0));
+    let (edit, new) = paste(&d, small(), None, &text, [500.0, 600.0]).expect("an edit");
+    assert_eq!(new, ["c_2", "m_2"], "a material has one surface");
+    let after = made(&d, &edit);
+    assert_eq!(after.graph.incoming(&socket("m_2.a")), Some(&socket("c_2.out")));
+    assert_eq!((after.graph.layout["c_2"], after.graph.layout["m_2"]), ([500.0, 600.0], [600.0, 600.0]));
+    assert!(paste(&d, small(), None, "not a document", [0.0; 2]).is_err());
+    // A group goes along, but not into itself.
+    let d = made(&d, &collapse(&d, small(), None, &ids(&["m", "n"]), "Two").expect("a group"));
+    let text = copy(&d, None, &ids(&["two"]));
+    let (edit, _) = paste(&document(&[], &[]), small(), None, &text, [0.0; 2]).expect("an edit");
+    assert!(made(&document(&[], &[]), &edit).groups.contains_key("two"));
+    let why = paste(&d, small(), Some("two"), &text, [0.0; 2]).expect_err("a refusal");
+    assert!(why.to_string().contains("a group cannot hold itself"));
+}
+
+#[test]
+fn a_removed_node_hands_its_wire_on() {
+    let d = chain();
+    let after = made(&d, &remove_and_heal(&d, small(), None, &ids(&["m", "n"])).expect("an edit"));
+    assert_eq!(after.graph.incoming(&socket("surface.base_color")), Some(&socket("c.out")));
+    assert_eq!(after.graph.incoming(&socket("surface.normal")), Some(&socket("c.out")));
+    // Three numbers become none of a vector: the wire is gone.
+    let after = made(&d, &remove_and_heal(&d, small(), None, &ids(&["c"])).expect("an edit"));
+    assert_eq!(after.graph.incoming(&socket("m.a")), None);
+}
+
+#[test]
+fn wires_that_cannot_be_say_why() {
+    let d = chain();
+    let can =
+        |from: &str, to: &str| can_connect(&d, small(), None, &socket(from), &socket(to)).map_err(|e| e.to_string());
+    assert_eq!(can("s.x", "m.t"), Ok(()));
+    assert_eq!(can("c.out", "m.b"), Ok(()), "T follows");
+    let why = |from: &str, to: &str| can(from, to).expect_err("a refusal");
+    assert!(
+        why("c.out", "m.t").contains("a vec3f does not go into a f32: components would be lost"),
+        "{}",
+        why("c.out", "m.t")
+    );
+    assert!(why("n.out", "m.b").contains("feed each other in a ring"));
+    assert!(why("m.out", "m.b").contains("feed itself"));
+    assert!(why("m.gone", "n.b").contains("has no output `gone`"));
+    assert!(why("m.out", "n.gone").contains("has no input `gone`"));
+    assert!(why("surface.out", "m.a").contains("ring") || why("surface.out", "m.a").contains("surface"));
+}
+
+#[test]
+fn a_node_is_put_on_a_wire() {
+    let mut d = chain();
+    d.graph.nodes.insert("x".into(), Node::new("math/mix"));
+    let on = link("m.out", "surface.normal");
+    let after = made(&d, &insert_on_link(&d, small(), None, &on, "x").expect("an edit"));
+    assert_eq!(after.graph.incoming(&socket("surface.normal")), Some(&socket("x.out")));
+    assert_eq!(after.graph.incoming(&socket("x.a")), Some(&socket("m.out")));
+    d.graph.nodes.insert("y".into(), Node::new("vector/greater"));
+    let why = insert_on_link(&d, small(), None, &on, "y").expect_err("a refusal");
+    assert!(why.to_string().contains("has no free input and output that fit"), "{why}");
+    assert!(insert_on_link(&d, small(), None, &link("a.b", "c.d"), "x").is_err());
+}
+
+proptest! {
+    /// On whatever document: an edit that can be made and undone, or a refusal.
+    #[test]
+    fn operations_never_break_a_document(d in any_document(), pick in prop::collection::vec("[a-e]", 1..4), in_group in any::<bool>()) {
+        let group = in_group.then_some("g");
+        let mut edits = vec![
+            collapse(&d, small(), group, &pick, "made"),
+            remove_and_heal(&d, small(), group, &pick),
+            ungroup(&d, small(), group, &pick[0]),
+        ];
+        let text = copy(&d, group, &pick);
+        edits.push(paste(&d, small(), group, &text, [1.0, 2.0]).map(|(edit, _)| edit));
+        for edit in edits.into_iter().flatten() {
+            let mut after = d.clone();
+            let undo = apply(&mut after, &edit).map_err(|e| TestCaseError::fail(format!("{e}: {edit:?}\n{}", to_json(&d))))?;
+            apply(&mut after, &undo).map_err(|e| TestCaseError::fail(e.to_string()))?;
+            prop_assert_eq!(to_json(&after), to_json(&d));
+        }
+    }
+}
