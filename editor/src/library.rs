@@ -43,6 +43,7 @@ shelves! {
         "chrome" "metal mirror chromium bathroom",
         "titanium" "metal grey aerospace",
         "brushed-aluminium" "metal brushed anisotropic lines",
+        "anodised-titanium" "metal thin film rainbow heat tint blue",
         "aged-brass" "metal yellow patina antique",
         "hammered-bronze" "metal brown dents beaten bowl",
         "rusted-iron" "metal corroded orange";

@@ -87,12 +87,12 @@ impl Lamp {
     pub fn new(kind: LampKind) -> Lamp {
         let brightness = match kind {
             LampKind::Directional => 3.0,
-            LampKind::Point => 20.0,
-            LampKind::Spot => 40.0,
+            LampKind::Point => 8.0,
+            LampKind::Spot => 16.0,
         };
         Lamp {
             kind,
-            place: Vec3::new(1.5, 1.8, 2.0),
+            place: Vec3::new(0.9, 0.9, 1.4),
             target: Vec3::ZERO,
             color: [1.0; 3],
             brightness,

@@ -7,7 +7,7 @@ use halfvector_graph::document::{Document, Link, Node, SocketRef};
 use halfvector_graph::value::Value;
 use halfvector_ibl::{BakeOptions, BakedEnvironment, bake};
 use halfvector_render::{Cache, Made, RenderOptions, Renderer};
-use halfvector_scene::{BuiltinMesh, Light, MeshSource, Scene};
+use halfvector_scene::{Background, BuiltinMesh, Light, MeshSource, Scene};
 
 use crate::support::{renderer, root};
 
@@ -17,7 +17,9 @@ const OPTIONS: RenderOptions =
 fn example(name: &str) -> Scene {
     let folder = root().join("examples");
     let document = halfvector_graph::file::load(&folder.join(name)).expect("an example");
-    Scene::from_material(document, &folder, &MeshSource::Builtin(BuiltinMesh::Cube)).expect("a scene")
+    let mut scene = Scene::from_material(document, &folder, &MeshSource::Builtin(BuiltinMesh::Cube)).expect("a scene");
+    scene.background = Background::None;
+    scene
 }
 
 fn studio() -> Arc<BakedEnvironment> {
@@ -93,8 +95,7 @@ fn dragging_a_number_compiles_nothing_and_an_edit_one_program() {
     wired.graph.nodes.insert("more".into(), Node::new("math/multiply").with("b", Value::Number(0.7)));
     let surface = SocketRef::new("surface", "occlusion");
     wired.graph.links.retain(|link| link.to != surface);
-    let noise = document.graph.links.iter().find(|link| link.from.socket == "out").expect("a wire").from.clone();
-    wired.graph.links.push(Link::new(noise, SocketRef::new("more", "a")));
+    wired.graph.links.push(Link::new(SocketRef::new("patches", "out"), SocketRef::new("more", "a")));
     wired.graph.links.push(Link::new(SocketRef::new("more", "out"), surface));
     scene.materials[0].document = wired;
     let made = draw(&gpu, &mut cache, &scene, &light);

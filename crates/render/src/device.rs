@@ -1,11 +1,15 @@
 //! The GPU: which one is taken, and how its errors come back as values. It draws nothing.
 
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use crate::error::RenderError;
 
 /// What the device can do beyond WebGPU's core, as far as it is used here.
 const WANTED: wgpu::Features = wgpu::Features::FLOAT32_BLENDABLE.union(wgpu::Features::FLOAT32_FILTERABLE);
+
+/// How long a callback may take that is due.
+const CALL_BACK: Duration = Duration::from_secs(10);
 
 /// An opened GPU.
 #[derive(Debug)]
@@ -109,7 +113,8 @@ impl Gpu {
             let _ = sender.send(result);
         });
         self.wait(doing)?;
-        match receiver.try_recv() {
+        // All submitted work is done; but if another thread has waited, too, it may be that one that is just calling back.
+        match receiver.recv_timeout(CALL_BACK) {
             Ok(Ok(())) => {}
             Ok(Err(error)) => return Err(lost(error.to_string())),
             Err(_) => return Err(lost("the numbers did not come back".to_owned())),

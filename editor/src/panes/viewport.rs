@@ -197,6 +197,7 @@ impl Viewport {
                 {
                     self.banner = Some(format!("The model stays as it was: {why}"));
                     self.stage.mesh = self.good.0.clone();
+                    self.frames = false;
                 } else {
                     side.fault = Some(fault);
                 }
