@@ -3,9 +3,10 @@
 
 use std::collections::HashMap;
 
-use halfvector_graph::document::{Document, GROUP_OUTPUT, SocketRef, group_of};
+use halfvector_graph::document::{Document, GROUP_OUTPUT, SocketRef, function_of, group_of};
 use halfvector_graph::flatten::find;
 use halfvector_graph::library::Library;
+use halfvector_graph::library::custom::read_function;
 use halfvector_graph::method::Methods;
 use halfvector_graph::node_def::{Argument, Default, Function, Input as InputDef, NodeDef};
 use halfvector_graph::value::{SocketType, Type, Value};
@@ -357,7 +358,17 @@ pub fn input_value(document: &Document, library: &Library, socket: &SocketRef, t
         }
         // What a group gives where nothing is wired inside.
         (None, None) if node.node == GROUP_OUTPUT => vec![0.0],
-        (None, None) => default(&library.get(&node.node)?.inputs.iter().find(|i| i.name == socket.socket)?.default)?,
+        (None, None) => {
+            let own = match function_of(&node.node) {
+                Some(id) => Some(read_function(id, document.functions.get(id)?).ok()?),
+                None => None,
+            };
+            let def = match &own {
+                Some(function) => &function.def,
+                None => library.get(&node.node)?,
+            };
+            default(&def.inputs.iter().find(|i| i.name == socket.socket)?.default)?
+        }
     };
     Some(crate::ir::Literal::new(ty, &components).components())
 }

@@ -1,10 +1,11 @@
 //! Functions of the user's own in a shader.
 
-use halfvector_graph::document::Document;
+use halfvector_graph::document::{Document, SocketRef};
 use halfvector_graph::library::Library;
+use halfvector_graph::value::Type;
 
 use super::{document, environment, exported, made, sun};
-use crate::{CodegenError, Fold, Origin, material, shader, validate};
+use crate::{CodegenError, Fold, Origin, input_value, material, shader, validate};
 
 /// A document of one function `f(x) -> f32` that feeds the roughness.
 fn with(function: &str) -> Document {
@@ -35,6 +36,9 @@ fn a_function_of_the_users_is_linked_with_what_it_calls() {
         assert!(shader.segments.iter().any(|s| s.origin == Origin::Library("custom/tartan".into())));
         assert!(shader.segments.iter().any(|s| s.origin == Origin::Node("tartan".into())));
     }
+    // What is not set is filled in from the function's own defaults.
+    let softness = input_value(&document, Library::standard(), &SocketRef::new("tartan", "softness"), Type::F32);
+    assert_eq!(softness, Some(vec![0.01]));
     let alone = material(&document, Library::standard(), &sun().methods).unwrap_or_else(|e| panic!("{e}"));
     validate(&alone).unwrap_or_else(|e| panic!("{e}\n{}", alone.wgsl));
 }
