@@ -9,7 +9,7 @@ use halfvector_ibl::{
     StoredLobe, save,
 };
 use halfvector_render::Renderer;
-use halfvector_scene::{Display, EnvironmentSource, Picture};
+use halfvector_scene::{Display, EnvironmentSource, Picture, ggx_roughness};
 
 use crate::environment::{bake_with_bar, load};
 use crate::failure::Failure;

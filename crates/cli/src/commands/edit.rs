@@ -37,7 +37,7 @@ pub(crate) fn run(args: &EditArgs) -> Result<u8, Failure> {
 
 /// Opens the editor with the start material; where there is no display, draws that instead.
 pub(crate) fn run_or_draw() -> Result<u8, Failure> {
-    match halfvector_editor::run(Options { document: None, folders: Folders::of_user() }) {
+    match halfvector_editor::run(Options { folders: Folders::of_user(), ..Options::default() }) {
         Ok(()) => Ok(0),
         Err(error @ (EditorError::NoDisplay | EditorError::Window(_))) => {
             note(format_args!(
