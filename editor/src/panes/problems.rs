@@ -68,6 +68,11 @@ impl Problems {
         self.worker.as_ref().is_none_or(|worker| !worker.is_busy())
     }
 
+    /// What was found in the pictures of normal maps.
+    pub(crate) fn notices(&self) -> &[Problem] {
+        &self.notices
+    }
+
     /// How many problems there are.
     pub(crate) fn count(&self, session: &Session) -> usize {
         let unstable = self.stability.as_ref().and_then(|(_, found)| found.as_ref().ok());
