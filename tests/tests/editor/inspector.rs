@@ -177,7 +177,7 @@ fn the_material_itself_is_set_when_nothing_is_selected() {
         document(harness).parameters.iter().map(|parameter| parameter.name.clone()).collect::<Vec<_>>()
     };
     assert_eq!(names(&harness), ["enamel_color", "enamel_roughness"]);
-    harness.get_all_by_role_and_label(Role::Button, "⏷").next().unwrap().click();
+    harness.get_all_by_role_and_label(Role::Button, "Down").next().unwrap().click();
     harness.run_steps(3);
     assert_eq!(names(&harness), ["enamel_roughness", "enamel_color"]);
 }
