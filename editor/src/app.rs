@@ -236,10 +236,11 @@ struct Behavior<'a> {
 impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     fn pane_ui(&mut self, ui: &mut egui::Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
         let Behavior { session, panes, actions } = self;
+        ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
         match pane {
             Pane::Canvas => panes.canvas.show(ui, session, actions),
             Pane::Viewport => panes.viewport.show(ui, session, &mut panes.thumbnails, actions),
-            Pane::Inspector => panes.inspector.show(ui, session, actions),
+            Pane::Inspector => panes.inspector.show(ui, session, panes.problems.notices(), actions),
             Pane::Code => panes.code.show(ui, session, panes.viewport.stage(), actions),
             Pane::Problems => panes.problems.show(ui, session, actions),
             Pane::Library => panes.library.show(ui, &mut panes.thumbnails, actions),

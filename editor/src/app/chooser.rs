@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use eframe::egui;
 use egui_file_dialog::{FileDialog, Filter};
 use halfvector_graph::document::SocketRef;
 use halfvector_graph::edit::Edit;
@@ -31,7 +32,10 @@ impl Editor {
         let folder = self.session.file().and_then(Path::parent).map(Path::to_owned);
         let folder = folder.or_else(|| self.files.settings.last_folder.clone()).filter(|folder| folder.is_dir());
         let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default();
-        let mut dialog = FileDialog::new().initial_directory(folder).default_size([760.0, 480.0]);
+        let mut dialog = FileDialog::new()
+            .initial_directory(folder)
+            .default_size([760.0, 480.0])
+            .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0]);
         let is_material = |path: &Path| path.to_str().is_some_and(|name| name.ends_with(ENDING));
         match &purpose {
             Choose::Open => {

@@ -22,7 +22,8 @@ pub(crate) fn keys(ui: &mut egui::Ui) -> bool {
         ui.strong("Window");
         egui::Grid::new("keys of the window").num_columns(2).striped(true).min_col_width(180.0).show(ui, |ui| {
             for shortcut in SHORTCUTS {
-                let keys: Vec<String> = shortcut.keys.iter().map(|keys| ui.ctx().format_shortcut(keys)).collect();
+                let text = |keys| ui.ctx().format_shortcut(keys).replace("Questionmark", "?");
+                let keys: Vec<String> = shortcut.keys.iter().map(text).collect();
                 row(ui, &keys.join(" or "), shortcut.what);
             }
         });

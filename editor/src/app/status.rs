@@ -54,7 +54,7 @@ impl Messages {
             let name = session.file().and_then(|file| file.file_name()).map(|name| name.to_string_lossy().into_owned());
             let name = name.unwrap_or_else(|| "no file".to_owned());
             if session.is_unsaved() {
-                ui.colored_label(theme::WARNING, format!("● {name}, not saved")).on_hover_text("Save with Ctrl+S");
+                ui.colored_label(theme::WARNING, format!("• {name}, not saved")).on_hover_text("Save with Ctrl+S");
             } else {
                 ui.weak(name).on_hover_text(session.file().map(|file| file.display().to_string()).unwrap_or_default());
             }

@@ -16,6 +16,7 @@ mod several;
 mod thumbnail;
 
 use eframe::egui;
+use halfvector_graph::check::Problem;
 
 use crate::action::Action;
 pub(crate) use crate::panes::inspector::row::named_text;
@@ -40,14 +41,23 @@ impl Inspector {
     }
 
     /// Draws what there is to be known and set of the selection.
-    pub(crate) fn show(&mut self, ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
+    /// `notices` are problems beyond those of the document.
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut egui::Ui,
+        session: &Session,
+        notices: &[Problem],
+        actions: &mut Vec<Action>,
+    ) {
         self.thumbnails.hear(ui.ctx());
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
                 let mut selected = session.selection().iter();
                 match (selected.next(), selected.next()) {
                     (None, _) => material::show(ui, session, actions),
-                    (Some(id), None) => node::show(ui, session, id, &mut self.thumbnails, actions),
+                    (Some(id), None) => {
+                        node::show(ui, session, id, notices, &mut self.thumbnails, actions);
+                    }
                     _ => several::show(ui, session, actions),
                 }
             });

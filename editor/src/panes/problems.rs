@@ -68,6 +68,11 @@ impl Problems {
         self.worker.as_ref().is_none_or(|worker| !worker.is_busy())
     }
 
+    /// What was found in the pictures of normal maps.
+    pub(crate) fn notices(&self) -> &[Problem] {
+        &self.notices
+    }
+
     /// How many problems there are.
     pub(crate) fn count(&self, session: &Session) -> usize {
         let unstable = self.stability.as_ref().and_then(|(_, found)| found.as_ref().ok());
@@ -192,8 +197,8 @@ fn look(job: &Job) -> Found {
 
 fn row(ui: &mut egui::Ui, problem: &Problem, actions: &mut Vec<Action>) {
     let (mark, color) = match problem.severity {
-        Severity::Error => ("●", theme::ERROR),
-        Severity::Warning => ("▲", theme::WARNING),
+        Severity::Error => ("•", theme::ERROR),
+        Severity::Warning => ("⚠", theme::WARNING),
     };
     ui.horizontal_wrapped(|ui| {
         ui.colored_label(color, mark);
@@ -212,7 +217,7 @@ fn row(ui: &mut egui::Ui, problem: &Problem, actions: &mut Vec<Action>) {
 
 fn unstable(ui: &mut egui::Ui, finding: &Finding, what: &str, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
-        ui.colored_label(theme::WARNING, "▲");
+        ui.colored_label(theme::WARNING, "⚠");
         if ui.link(&finding.label).on_hover_text("Show the node").clicked() {
             actions.push(Action::Show(finding.node.clone()));
         }

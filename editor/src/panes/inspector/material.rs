@@ -102,12 +102,12 @@ fn parameters(ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
     for (place, one) in document.parameters.iter().enumerate() {
         ui.push_id(place, |ui| {
             let row = ui.horizontal(|ui| {
-                let handle = ui.dnd_drag_source(ui.id().with("handle"), place, |ui| ui.weak("≡"));
+                let handle = ui.dnd_drag_source(ui.id().with("handle"), place, |ui| ui.weak("::"));
                 handle.response.on_hover_text("Drag to change the order");
-                if ui.add_enabled(place > 0, egui::Button::new("⏶").small()).on_hover_text("Earlier").clicked() {
+                if ui.add_enabled(place > 0, egui::Button::new("Up").small()).on_hover_text("Earlier").clicked() {
                     moved = Some((place, place - 1));
                 }
-                if ui.add_enabled(place + 1 < count, egui::Button::new("⏷").small()).on_hover_text("Later").clicked()
+                if ui.add_enabled(place + 1 < count, egui::Button::new("Down").small()).on_hover_text("Later").clicked()
                 {
                     moved = Some((place, place + 1));
                 }

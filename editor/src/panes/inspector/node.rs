@@ -1,7 +1,7 @@
 //! One node: its label and help, what is wrong with it, its inputs.
 
 use eframe::egui::{self, CollapsingHeader, RichText, TextEdit};
-use halfvector_graph::check::Severity;
+use halfvector_graph::check::{Problem, Severity};
 use halfvector_graph::document::NodeId;
 use halfvector_graph::edit::Edit;
 use halfvector_graph::library::Library;
@@ -22,6 +22,7 @@ pub(crate) fn show(
     ui: &mut egui::Ui,
     session: &Session,
     id: &NodeId,
+    notices: &[Problem],
     thumbnails: &mut Thumbnails,
     actions: &mut Vec<Action>,
 ) {
@@ -29,7 +30,7 @@ pub(crate) fn show(
     let Some(def) = Library::standard().get(&node.node) else {
         ui.heading(node.label.as_deref().unwrap_or(id));
         ui.label(format!("This version does not know nodes of the kind {}. It is kept as it is.", node.node));
-        problems(ui, session, id);
+        problems(ui, session, notices, id);
         return;
     };
     label(ui, id, node.label.as_deref(), def, actions);
@@ -38,7 +39,7 @@ pub(crate) fn show(
         outputs(ui, def);
         ui.weak(format!("shaders/{}", def.file)).on_hover_text(&def.function.name);
     });
-    problems(ui, session, id);
+    problems(ui, session, notices, id);
     ui.separator();
     ui.push_id(id, |ui| {
         if curve::is_curve(def) {
@@ -94,8 +95,8 @@ fn outputs(ui: &mut egui::Ui, def: &NodeDef) {
     }
 }
 
-fn problems(ui: &mut egui::Ui, session: &Session, id: &NodeId) {
-    for problem in session.problems().iter().filter(|problem| problem.node.as_ref() == Some(id)) {
+fn problems(ui: &mut egui::Ui, session: &Session, notices: &[Problem], id: &NodeId) {
+    for problem in session.problems().iter().chain(notices).filter(|problem| problem.node.as_ref() == Some(id)) {
         let color = if problem.severity == Severity::Error { theme::ERROR } else { theme::WARNING };
         let text = match &problem.socket {
             Some(socket) => format!("{}: {}", in_words(socket), problem.message),

@@ -14,7 +14,8 @@ pub(crate) fn in_words(name: &str) -> String {
     name.replace('_', " ")
 }
 
-/// Draws a row: dot and name, the widget, the menu. The widget is given the name's id, for its label.
+/// Draws a row: dot and name, the widget, the menu. The widget is given the name's id, for its label. Each part has its own
+/// place, whatever the others need, so that columns stay columns.
 pub(crate) fn row<R>(
     ui: &mut egui::Ui,
     name: RichText,
@@ -23,43 +24,30 @@ pub(crate) fn row<R>(
     add_widget: impl FnOnce(&mut egui::Ui, egui::Id) -> R,
     add_menu: Option<&mut dyn FnMut(&mut egui::Ui)>,
 ) -> R {
-    ui.horizontal(|ui| {
-        let whole = ui.available_width();
-        let height = ui.spacing().interact_size.y;
-        let name_width = (whole * NAME_SHARE).clamp(70.0, 180.0);
-        let label = ui
-            .allocate_ui_with_layout(
-                egui::vec2(name_width, height),
-                egui::Layout::left_to_right(egui::Align::Center),
-                |ui| {
-                    ui.set_min_width(name_width);
-                    if let Some(color) = dot {
-                        let (rect, _) = ui.allocate_exact_size(egui::vec2(8.0, height), egui::Sense::hover());
-                        ui.painter().circle_filled(rect.center(), 3.5, color);
-                    }
-                    ui.add(egui::Label::new(name).truncate())
-                },
-            )
-            .inner;
-        let label = if hint.is_empty() { label } else { label.on_hover_text(hint) };
-        let menu_width = if add_menu.is_some() { MENU_WIDTH + ui.spacing().item_spacing.x } else { 0.0 };
-        let width = (ui.available_width() - menu_width).max(60.0);
-        let result = ui
-            .allocate_ui_with_layout(
-                egui::vec2(width, height),
-                egui::Layout::left_to_right(egui::Align::Center),
-                |ui| {
-                    ui.set_min_width(width);
-                    add_widget(ui, label.id)
-                },
-            )
-            .inner;
-        if let Some(add_menu) = add_menu {
-            ui.menu_button("…", |ui| add_menu(ui)).response.on_hover_text("Reset, expose, disconnect");
-        }
-        result
-    })
-    .inner
+    let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
+    let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+    let gap = ui.spacing().item_spacing.x;
+    let name_width = (rect.width() * NAME_SHARE).clamp(70.0, 180.0);
+    let menu_width = if add_menu.is_some() { MENU_WIDTH + gap } else { 0.0 };
+    let (name_rect, rest) = rect.split_left_right_at_x(rect.left() + name_width);
+    let (widget_rect, menu_rect) = rest.split_left_right_at_x((rest.right() - menu_width).max(rest.left()));
+    let mut part = |rect: egui::Rect| {
+        let layout = egui::Layout::left_to_right(egui::Align::Center);
+        ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(layout))
+    };
+    let mut names = part(name_rect);
+    if let Some(color) = dot {
+        let (rect, _) = names.allocate_exact_size(egui::vec2(8.0, size.y), egui::Sense::hover());
+        names.painter().circle_filled(rect.center(), 3.5, color);
+    }
+    let label = names.add(egui::Label::new(name).truncate());
+    let label = if hint.is_empty() { label } else { label.on_hover_text(hint) };
+    let result = add_widget(&mut part(widget_rect), label.id);
+    if let Some(add_menu) = add_menu {
+        let mut menu = part(menu_rect.with_min_x(menu_rect.left() + gap));
+        menu.menu_button("…", |ui| add_menu(ui)).response.on_hover_text("Reset, expose, disconnect");
+    }
+    result
 }
 
 /// Ends the row of merged edits when a drag, a text or a slider is done.
