@@ -22,6 +22,7 @@ impl LibraryPane {
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
             let search = egui::TextEdit::singleline(&mut self.search).hint_text("Search materials");
             let field = ui.add(search.desired_width(f32::INFINITY));
+            field.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, "Search materials"));
             field.on_hover_text("Names, kinds and other words: gold, cloth, wet, template …");
             ui.add_space(4.0);
             egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {

@@ -46,10 +46,12 @@ fn a_search_finds_and_a_click_opens() {
     harness.step();
     harness.step();
     assert!(harness.query_by_label("Car paint, red").is_some());
-    let field = harness.get_by_role(eframe::egui::accesskit::Role::TextInput);
+    let field = harness.get_by_role_and_label(eframe::egui::accesskit::Role::TextInput, "Search materials");
     field.focus();
     harness.step();
-    harness.get_by_role(eframe::egui::accesskit::Role::TextInput).type_text("precious yellow");
+    harness
+        .get_by_role_and_label(eframe::egui::accesskit::Role::TextInput, "Search materials")
+        .type_text("precious yellow");
     harness.step();
     harness.step();
     assert!(harness.query_by_label("Car paint, red").is_none());
