@@ -28,6 +28,8 @@ pub enum Action {
     Select(Vec<NodeId>),
     /// Selects a node and brings it into view.
     Show(NodeId),
+    /// Goes into groups, the outermost first, or out of them.
+    Enter(Vec<String>),
     /// Replaces the document by a new one, after asking when it is not saved.
     New,
     /// Replaces the document by a new one that begins as this, after asking when it is not saved.

@@ -163,6 +163,7 @@ impl Editor {
             Action::Undo => return Ok(said("Undone", self.session.undo()?)),
             Action::Redo => return Ok(said("Done again", self.session.redo()?)),
             Action::Select(nodes) => self.session.select(nodes),
+            Action::Enter(path) => self.session.enter(path),
             Action::Show(node) => {
                 self.session.select([node.clone()]);
                 self.panes.canvas.show_node(node);

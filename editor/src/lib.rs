@@ -14,6 +14,7 @@ mod files;
 mod history;
 mod library;
 mod paint;
+mod palette;
 mod panes;
 mod session;
 mod stage;

@@ -17,6 +17,10 @@ use crate::history::History;
 /// One open material.
 #[derive(Debug)]
 pub struct Session {
+    /// Tells sessions apart.
+    number: u64,
+    /// The groups that were entered, the outermost first.
+    path: Vec<String>,
     document: Arc<Document>,
     history: History,
     /// Another number after every change of the document, and in every session.
@@ -58,7 +62,10 @@ impl Session {
     }
 
     fn of_shared(document: Arc<Document>, file: Option<PathBuf>) -> Session {
+        static NUMBERS: AtomicU64 = AtomicU64::new(0);
         Session {
+            number: NUMBERS.fetch_add(1, Ordering::Relaxed),
+            path: Vec::new(),
             history: History::default(),
             revision: next_revision(),
             saved: Some(document.clone()),
@@ -80,9 +87,37 @@ impl Session {
         self.revision
     }
 
-    /// The graph that is worked on.
+    /// Tells this session from all others: with another number another document was opened.
+    pub fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// The groups that were entered, the outermost first; empty at the top level.
+    pub fn path(&self) -> &[String] {
+        &self.path
+    }
+
+    /// The group whose inside is worked on; none at the top level.
+    pub fn group(&self) -> Option<&str> {
+        self.path.last().map(String::as_str)
+    }
+
+    /// The graph that is worked on: the document's own, or the inside of the group that was entered.
     pub fn graph(&self) -> &Graph {
-        &self.document.graph
+        self.document.graph_of(self.group()).unwrap_or(&self.document.graph)
+    }
+
+    /// The nodes that this graph can be made of.
+    pub fn library(&self) -> &Library {
+        Library::standard()
+    }
+
+    /// An edit of this graph as an edit of the document.
+    pub fn here(&self, edit: Edit) -> Edit {
+        match self.group() {
+            Some(group) => Edit::In { group: group.to_owned(), edit: Box::new(edit) },
+            None => edit,
+        }
     }
 
     /// A node.
@@ -179,7 +214,27 @@ impl Session {
 
     /// Replaces the selection; ids of no node are passed over.
     pub(crate) fn select(&mut self, nodes: impl IntoIterator<Item = NodeId>) {
-        self.selection = nodes.into_iter().filter(|id| self.document.graph.nodes.contains_key(id)).collect();
+        let nodes: BTreeSet<NodeId> = nodes.into_iter().filter(|id| self.graph().nodes.contains_key(id)).collect();
+        self.selection = nodes;
+    }
+
+    /// Goes into groups, the outermost first, or out of them.
+    pub(crate) fn enter(&mut self, path: Vec<String>) {
+        self.path = path;
+        self.selection.clear();
+        self.keep_what_is_there();
+    }
+
+    /// Leaves groups that are gone, and forgets selected nodes that are.
+    fn keep_what_is_there(&mut self) {
+        let there = self.path.iter().take_while(|group| self.document.groups.contains_key(*group)).count();
+        if there < self.path.len() {
+            self.path.truncate(there);
+            self.selection.clear();
+        }
+        let mut selection = std::mem::take(&mut self.selection);
+        selection.retain(|id| self.graph().nodes.contains_key(id));
+        self.selection = selection;
     }
 
     /// A document was written to a file, which is this session's from now on. Image paths start at its folder.
@@ -211,7 +266,7 @@ impl Session {
     fn changed(&mut self) {
         self.revision = next_revision();
         self.problems = check(&self.document, Library::standard());
-        self.selection.retain(|id| self.document.graph.nodes.contains_key(id));
+        self.keep_what_is_there();
     }
 }
 

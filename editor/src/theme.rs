@@ -41,6 +41,83 @@ pub(crate) const GOOD: Color32 = Color32::from_rgb(0x6f, 0xbf, 0x73);
 /// What is chosen.
 pub(crate) const ACCENT: Color32 = Color32::from_rgb(0x4d, 0x9d, 0xe0);
 
+/// Colours of the graph's ground and cards.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CanvasColors {
+    /// Behind everything.
+    pub(crate) ground: Color32,
+    /// Lines of the grid, and every fifth of them.
+    pub(crate) grid: Color32,
+    pub(crate) grid_strong: Color32,
+    /// A card, its outline, and its outline under the pointer.
+    pub(crate) card: Color32,
+    pub(crate) line: Color32,
+    pub(crate) line_strong: Color32,
+    pub(crate) shadow: Color32,
+    /// Where a value is changed, and the part of its range that it fills.
+    pub(crate) field: Color32,
+    pub(crate) filled: Color32,
+    /// Letters: of rows, of what matters less, and of titles.
+    pub(crate) text: Color32,
+    pub(crate) weak: Color32,
+    pub(crate) title: Color32,
+    /// A comment and its letters.
+    pub(crate) note: Color32,
+    pub(crate) note_text: Color32,
+}
+
+/// The usual colour of a frame.
+pub(crate) const FRAME: [u8; 3] = [0x7a, 0x86, 0x96];
+/// Colours that a frame can have besides.
+pub(crate) const FRAMES: &[[u8; 3]] = &[
+    [0xc4, 0x5f, 0x57],
+    [0xc9, 0x8a, 0x3c],
+    [0x6f, 0xa8, 0x5c],
+    [0x3f, 0x9c, 0x9c],
+    [0x4d, 0x86, 0xd0],
+    [0x95, 0x6f, 0xc4],
+];
+
+/// The graph's colours in a theme.
+pub(crate) fn canvas(visuals: &egui::Visuals) -> CanvasColors {
+    let gray = Color32::from_rgb;
+    if visuals.dark_mode {
+        CanvasColors {
+            ground: gray(0x17, 0x19, 0x1c),
+            grid: gray(0x1d, 0x20, 0x24),
+            grid_strong: gray(0x25, 0x28, 0x2e),
+            card: gray(0x2a, 0x2d, 0x33),
+            line: gray(0x10, 0x11, 0x13),
+            line_strong: gray(0x6a, 0x72, 0x7e),
+            shadow: Color32::from_black_alpha(70),
+            field: gray(0x1c, 0x1e, 0x22),
+            filled: gray(0x37, 0x4b, 0x60),
+            text: gray(0xcf, 0xd4, 0xdb),
+            weak: gray(0x86, 0x8e, 0x99),
+            title: gray(0xf2, 0xf4, 0xf6),
+            note: gray(0x3a, 0x37, 0x2a),
+            note_text: gray(0xe4, 0xdc, 0xbe),
+        }
+    } else {
+        CanvasColors {
+            ground: gray(0xe4, 0xe6, 0xe9),
+            grid: gray(0xdb, 0xdd, 0xe1),
+            grid_strong: gray(0xcf, 0xd2, 0xd7),
+            card: gray(0xfa, 0xfa, 0xfb),
+            line: gray(0xb4, 0xb9, 0xc1),
+            line_strong: gray(0x7d, 0x86, 0x93),
+            shadow: Color32::from_black_alpha(28),
+            field: gray(0xe9, 0xeb, 0xee),
+            filled: gray(0xb9, 0xd4, 0xee),
+            text: gray(0x2a, 0x2e, 0x34),
+            weak: gray(0x77, 0x7f, 0x8a),
+            title: gray(0xff, 0xff, 0xff),
+            note: gray(0xfb, 0xf4, 0xd3),
+            note_text: gray(0x4a, 0x43, 0x28),
+        }
+    }
+}
+
 /// Sets both themes of the window.
 pub(crate) fn install(context: &egui::Context) {
     context.style_mut_of(egui::Theme::Dark, |style| {

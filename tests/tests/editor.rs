@@ -1,10 +1,13 @@
 //! The editor without a window: clicks, drags and keys go in, documents and pictures come out.
 
+mod canvas;
 mod code;
 mod files;
 mod inspector;
 mod library;
 mod opening;
+mod palette;
+mod undo;
 mod viewport;
 
 use std::time::{Duration, Instant};

@@ -1,42 +1,460 @@
-//! The graph.
+//! The graph: cards, wires and what a person does with them.
+//!
+//! `sheet` lays the document out, `view` says what part of it is seen, `hit` what lies under the pointer, `draw` paints. What a
+//! person does goes through `gesture` (the pointer), `keys` and `menus`, and becomes edits (`edits`, `fit`, `arrange`,
+//! `guides`). The document is never changed here: what is half done, such as a drag, is kept until it is done and then
+//! returned as one action.
 
-use eframe::egui;
-use halfvector_graph::check::node_label;
-use halfvector_graph::document::NodeId;
+mod arrange;
+mod draw;
+mod edits;
+mod fields;
+mod fit;
+mod gesture;
+mod guides;
+mod hit;
+mod keys;
+mod menus;
+mod minimap;
+mod notes;
+mod sheet;
+mod tips;
+mod view;
+mod wire;
+
+use std::collections::BTreeSet;
+
+use eframe::egui::{self, Id, Pos2, Rect, Sense, pos2, vec2};
+use halfvector_graph::document::{Graph, Link, NodeId, SocketRef};
+use halfvector_graph::edit::Edit;
 use halfvector_graph::library::Library;
 
 use crate::action::Action;
+use crate::palette::{Outcome, Palette};
 use crate::session::Session;
 use crate::theme;
+use draw::{Brush, Detail};
+use fields::Editing;
+use fit::Loose;
+use gesture::Gesture;
+use hit::Hit;
+use menus::Meant;
+use notes::NoteId;
+use sheet::{Card, Sheet};
+use view::{Lens, View};
+
+/// Zoom at which a node that is looked for is shown at least.
+const READABLE: f32 = 0.7;
 
 /// The graph's view.
 #[derive(Debug, Default)]
 pub(crate) struct Canvas {
-    /// A node that is to be brought into view.
-    wanted: Option<NodeId>,
+    /// The session, and the groups in it that were entered: which graph is shown.
+    level: (u64, Vec<String>),
+    /// None until it was drawn once.
+    view: Option<View>,
+    /// Nodes that are to be brought into view.
+    wanted: Vec<NodeId>,
+    sheet: Option<Sheet>,
+    gesture: Gesture,
+    editing: Option<Editing>,
+    /// What the open menu is about.
+    meant: Meant,
+    palette: Palette,
+    /// What is done with the node that the palette gives.
+    purpose: Purpose,
+    /// Nodes whose unused inputs are shown.
+    unfolded: BTreeSet<NodeId>,
+    /// Why something was not done, where, and until when that is shown.
+    words: Option<(String, Pos2, f64)>,
+    /// The frame or comment that was chosen.
+    picked: Option<NoteId>,
+    keeps_off_grid: bool,
+    hides_map: bool,
+}
+
+/// Where a node of the palette goes.
+#[derive(Clone, Debug, Default)]
+struct Purpose {
+    /// Its place on the canvas.
+    at: Pos2,
+    /// The wire that it is for.
+    loose: Option<Loose>,
+    /// The wire that it is put into.
+    into: Option<Link>,
+}
+
+/// What the parts of the canvas work on in a frame.
+struct Desk<'a> {
+    session: &'a Session,
+    /// The level that is worked on, and the nodes that it can be made of.
+    graph: &'a Graph,
+    library: &'a Library,
+    lens: Lens,
+    actions: &'a mut Vec<Action>,
+}
+
+impl Desk<'_> {
+    /// Makes edits as one step. Cards that have no place in the document yet get the one where they are seen, so that they
+    /// do not jump when others move.
+    fn edit(&mut self, sheet: &Sheet, name: impl Into<String>, edits: Vec<Edit>) {
+        let layout = &self.graph.layout;
+        let homeless = sheet.cards.iter().filter(|card| !layout.contains_key(&card.id));
+        let mut all: Vec<Edit> = homeless.map(|card| moved(card, card.place)).collect();
+        all.extend(edits);
+        self.make(name, Edit::Many(all));
+    }
+
+    /// Makes an edit of the level.
+    fn make(&mut self, name: impl Into<String>, edit: Edit) {
+        self.actions.push(Action::edit(name, self.session.here(edit)));
+    }
+
+    /// Makes an edit of the level that joins those before it with the same key.
+    fn drag(&mut self, name: impl Into<String>, edit: Edit, key: &str) {
+        self.actions.push(Action::drag(name, self.session.here(edit), key));
+    }
+
+    /// Goes into a group, or out of it.
+    fn enter(&mut self, group: &str) {
+        let mut path = self.session.path().to_vec();
+        path.push(group.to_owned());
+        self.actions.push(Action::Enter(path));
+    }
+
+    fn leave(&mut self) {
+        if let [outer @ .., _] = self.session.path() {
+            self.actions.push(Action::Enter(outer.to_vec()));
+        }
+    }
+
+    /// Adds what arrives and selects it.
+    fn arrive(&mut self, sheet: &Sheet, name: impl Into<String>, arrival: edits::Arrival) {
+        self.edit(sheet, name, arrival.edits);
+        self.actions.push(Action::Select(arrival.ids));
+    }
+}
+
+/// The edit that puts a card somewhere.
+fn moved(card: &Card, place: Pos2) -> Edit {
+    Edit::MoveNode { id: card.id.clone(), position: Some([place.x, place.y]) }
 }
 
 impl Canvas {
     /// Brings a node into view when the canvas is drawn next.
     pub(crate) fn show_node(&mut self, node: NodeId) {
-        self.wanted = Some(node);
+        self.wanted = vec![node];
     }
 
     /// Draws the graph.
     pub(crate) fn show(&mut self, ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
-        if let Some(node) = self.wanted.take() {
-            actions.push(Action::Select(vec![node]));
+        let (graph, library) = (session.graph(), session.library());
+        let level = (session.number(), session.path().to_vec());
+        if self.level != level {
+            // Another graph is there: it is shown whole.
+            *self = Canvas {
+                level,
+                wanted: std::mem::take(&mut self.wanted),
+                palette: std::mem::take(&mut self.palette),
+                keeps_off_grid: self.keeps_off_grid,
+                hides_map: self.hides_map,
+                ..Canvas::default()
+            };
         }
-        for id in session.graph().nodes.keys() {
-            let label = node_label(session.graph(), Library::standard(), id);
-            let definition = session.graph().nodes.get(id).and_then(|node| Library::standard().get(&node.node));
-            let output = definition.and_then(|definition| definition.outputs.first());
-            let category = definition.map_or("", |definition| definition.id.split('/').next().unwrap_or(""));
-            let color = output.map_or(theme::category_color(category), |output| theme::socket_color(output.ty));
-            let text = egui::RichText::new(label).color(color);
-            if ui.selectable_label(session.selection().contains(id), text).clicked() {
-                actions.push(Action::Select(vec![id.clone()]));
+        let mut sheet = match self.sheet.take() {
+            Some(sheet) if sheet.is_of(session, &self.unfolded) => sheet,
+            _ => Sheet::new(ui.ctx(), session, &self.unfolded),
+        };
+        for card in &mut sheet.cards {
+            card.is_selected = session.selection().contains(&card.id);
+            card.heat = session.heat().get(&card.id).copied();
+            card.shift = egui::Vec2::ZERO;
+        }
+        sheet.notes.iter_mut().for_each(|note| note.shown = note.rect);
+        let pane = ui.available_rect_before_wrap();
+        let response = ui.interact(pane, Id::new("graph canvas"), Sense::click_and_drag());
+        ui.advance_cursor_after_rect(pane);
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "Graph canvas"));
+        if pane.width() < 8.0 || pane.height() < 8.0 {
+            self.sheet = Some(sheet);
+            return;
+        }
+        let lens = Lens { pane, view: self.looked(&sheet, pane) };
+        let mut desk = Desk { session, graph, library, lens, actions };
+        let bar = Rect::from_min_size(pane.min + vec2(6.0, 5.0), vec2((pane.width() - 12.0).max(0.0), 24.0));
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        let is_over = response.hovered();
+        if let Some(pointer) = pointer.filter(|_| response.hovered()) {
+            desk.lens.view = view::wheel(ui, desk.lens, pointer);
+        }
+        let map = self.map(ui, &mut desk, &sheet);
+        if !map {
+            self.pointer(ui, &response, &mut desk, &mut sheet);
+        }
+        self.keys(ui, &response, &mut desk, &sheet);
+        let hovered = pointer.filter(|_| is_over && !map).map_or(Hit::Empty, |at| hit::hit(&sheet, desk.lens, at));
+
+        let colors = theme::canvas(ui.visuals());
+        let painter = ui.painter_at(pane);
+        draw::grid(&painter, desk.lens, &colors);
+        let loose = self.gesture.loose().cloned();
+        let takes = loose.map(|loose| {
+            move |card: &Card, row: &sheet::Row| {
+                loose.fits_row(card, row) || *loose.socket() == SocketRef::new(&card.id, &row.name)
+            }
+        });
+        let brush = Brush {
+            painter: &painter,
+            lens: desk.lens,
+            colors,
+            detail: Detail::of(desk.lens),
+            takes: takes.as_ref().map(|takes| takes as &dyn Fn(&Card, &sheet::Row) -> bool),
+        };
+        self.paint(&brush, &sheet, hovered);
+        self.announce(ui, &mut desk, &sheet);
+        self.paint_gesture(ui, &brush, &desk, &sheet, pointer);
+        self.paint_map(&brush, &sheet);
+        self.bar(ui, bar, &mut desk, &sheet);
+        self.fields(ui, &mut desk, &sheet);
+        if is_over && !map && self.gesture.is_idle() && !self.palette.is_open() && self.editing.is_none() {
+            tips::show(&response, &sheet, desk.lens, hovered);
+        }
+        self.menu(ui, &response, &mut desk, &sheet, hovered);
+        self.choose(ui, &mut desk, &sheet);
+        self.paint_words(ui, &brush);
+        self.view = Some(desk.lens.view);
+        self.sheet = Some(sheet);
+    }
+
+    /// The view of this frame: as it was, or where something is wanted.
+    fn looked(&mut self, sheet: &Sheet, pane: Rect) -> View {
+        let wanted = std::mem::take(&mut self.wanted);
+        let cards = wanted.iter().filter_map(|id| sheet.card(id));
+        if let (Some(rect), Some(view)) = (Sheet::bounds(cards), self.view) {
+            let room = View::showing(rect, pane).zoom;
+            return View { center: rect.center(), zoom: view.zoom.max(READABLE).min(room.max(READABLE)) };
+        }
+        self.view.unwrap_or_else(|| match Sheet::bounds(sheet.cards.iter()) {
+            Some(rect) => View::showing(rect, pane.with_min_y(pane.top() + 28.0)),
+            None => View::default(),
+        })
+    }
+
+    /// Shows some cards whole, or all when there are none.
+    fn fit(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, only_selected: bool) {
+        let selected = Sheet::bounds(sheet.cards.iter().filter(|card| only_selected && card.is_selected));
+        if let Some(rect) = selected.or_else(|| Sheet::bounds(sheet.cards.iter())) {
+            desk.lens.view = View::showing(rect, desk.lens.pane.with_min_y(desk.lens.pane.top() + 28.0));
+        }
+    }
+
+    fn paint(&self, brush: &Brush<'_>, sheet: &Sheet, hovered: Hit) {
+        brush.notes(sheet, self.picked.as_ref());
+        let lifted = self.gesture.lifted();
+        let hovered_wire = match hovered {
+            Hit::Wire(wire) if self.gesture.is_idle() => Some(wire),
+            _ => self.gesture.over_wire(),
+        };
+        brush.wires(sheet, hovered_wire, |i| lifted == Some(&sheet.wires[i].link));
+        let seen = brush.lens.seen().expand(12.0);
+        for selected in [false, true] {
+            for (i, card) in sheet.cards.iter().enumerate() {
+                if card.is_selected == selected && card.rect().intersects(seen) {
+                    brush.card(card, hovered.card() == Some(i));
+                }
+            }
+        }
+        if let Hit::Socket(card, row) = hovered
+            && self.gesture.is_idle()
+        {
+            let ty = sheet.cards[card].rows[row].ty;
+            brush.ring(brush.lens.to_screen(sheet.socket((card, row))), theme::socket_color(ty));
+        }
+    }
+
+    /// Tells screen readers what is seen, and does what they ask for.
+    fn announce(&self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) {
+        use egui::accesskit::{Action as Asked, Role};
+        let context = ui.ctx();
+        let lens = desk.lens;
+        let tell =
+            |id: Id, rect: Rect, role: Role, label: &dyn Fn() -> String, value: Option<String>, is_selected: bool| {
+                let told = context.accesskit_node_builder(id, |node| {
+                    node.set_role(role);
+                    node.set_label(label());
+                    let rect = rect.intersect(lens.pane);
+                    let [x0, y0, x1, y1] = [rect.left(), rect.top(), rect.right(), rect.bottom()].map(f64::from);
+                    node.set_bounds(egui::accesskit::Rect { x0, y0, x1, y1 });
+                    node.add_action(Asked::Click);
+                    if let Some(value) = value {
+                        node.set_value(value);
+                    }
+                    if is_selected {
+                        node.set_selected(true);
+                    }
+                });
+                told.is_some()
+            };
+        for note in sheet.notes.iter().filter(|note| note.shown.intersects(lens.seen())) {
+            let title = Rect::from_min_size(note.shown.min, vec2(note.shown.width(), notes::TITLE));
+            let label = || format!("{} {}", if note.kind() == "frame" { "Frame" } else { "Comment" }, note.text);
+            let is_picked = self.picked.as_ref() == Some(&note.id);
+            let id = Id::new(("graph note", note.kind(), &note.id));
+            tell(id, lens.rect_to_screen(title), Role::ListItem, &label, None, is_picked);
+        }
+        for card in sheet.cards.iter().filter(|card| card.rect().intersects(lens.seen())) {
+            let id = Id::new(("graph node", &card.id));
+            let label = || format!("Node {}", card.title);
+            let header = Rect::from_min_size(card.rect().min, vec2(card.size.x, sheet::HEADER));
+            if !tell(id, lens.rect_to_screen(header), Role::ListItem, &label, None, card.is_selected) {
+                // Nobody listens.
+                return;
+            }
+            if ui.input(|input| input.has_accesskit_action_request(id, Asked::Click)) {
+                desk.actions.push(Action::Select(vec![card.id.clone()]));
+            }
+            for row in card.rows.iter().filter(|row| row.has_socket()) {
+                let side = if row.side == sheet::Side::Output { "Output" } else { "Input" };
+                let id = Id::new(("graph socket", &card.id, side, &row.name));
+                let center = lens.to_screen(card.socket(row));
+                let rect = Rect::from_center_size(center, vec2(10.0, 10.0));
+                tell(id, rect, Role::Button, &|| format!("{side} {} of {}", row.name, card.title), None, false);
+            }
+            for row in card.rows.iter().filter(|row| row.field.is_editable()) {
+                if let Some(rect) = card.field(row) {
+                    let id = Id::new(("graph value", &card.id, &row.name));
+                    let label = || format!("Value {} of {}", row.name, card.title);
+                    tell(id, lens.rect_to_screen(rect), Role::SpinButton, &label, Some(row.field.text()), false);
+                }
             }
         }
     }
+
+    /// Opens the palette.
+    fn open_palette(&mut self, desk: &Desk<'_>, at: Pos2, purpose: Purpose) {
+        let named = |purpose: &Purpose| match (&purpose.loose, &purpose.into) {
+            (Some(Loose::Output(socket, _)), _) => Some(format!("Nodes that take what {} gives", socket)),
+            (Some(Loose::Input(socket, _)), _) => Some(format!("Nodes that give what {} takes", socket)),
+            (None, Some(_)) => Some("Nodes that can stand in this wire".to_owned()),
+            (None, None) => None,
+        };
+        let types = halfvector_graph::resolve::resolve_types(desk.graph, desk.library);
+        let ends = purpose.into.as_ref().and_then(|link| {
+            let given = types.get(&link.from.node)?.output(&link.from.socket)?;
+            Some((given, types.get(&link.to.node)?.input(&link.to.socket)?))
+        });
+        let offers = |def: &halfvector_graph::node_def::NodeDef| match (&purpose.loose, ends) {
+            (Some(loose), _) => loose.socket_of(def).is_some(),
+            (None, Some((given, wanted))) => fit::through(def, given, wanted).is_some(),
+            (None, None) => true,
+        };
+        self.palette.open(at, desk.library, named(&purpose), offers);
+        self.purpose = purpose;
+    }
+
+    /// Shows the palette and adds the node that is chosen.
+    fn choose(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) {
+        let canvas = Id::new("graph canvas");
+        match self.palette.show(ui, ui.ctx().content_rect(), desk.library) {
+            Outcome::None => return,
+            Outcome::Closed => {}
+            Outcome::Chosen(definition) => self.add(desk, sheet, &definition),
+        }
+        ui.memory_mut(|memory| memory.request_focus(canvas));
+    }
+
+    fn add(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, definition: &str) {
+        let Some(def) = desk.library.get(definition) else { return };
+        let purpose = std::mem::take(&mut self.purpose);
+        let at = if self.keeps_off_grid { purpose.at } else { view::to_grid(purpose.at) };
+        let mut arrival = edits::add(desk.graph, definition, [at.x, at.y]);
+        let id = arrival.ids[0].clone();
+        if let Some(loose) = &purpose.loose
+            && let Some(socket) = loose.socket_of(def)
+        {
+            arrival.edits.push(Edit::AddLink { link: loose.link(SocketRef::new(&id, socket)) });
+        }
+        if let Some(link) = &purpose.into {
+            arrival.edits.extend(edits::insert(desk.graph, desk.library, &id, definition, link).unwrap_or_default());
+        }
+        desk.arrive(sheet, format!("Add {}", def.label), arrival);
+    }
+
+    /// Says at a point of the screen why something was not done.
+    fn say(&mut self, ui: &egui::Ui, at: Pos2, text: String) {
+        self.words = Some((text, at, ui.input(|input| input.time) + 4.0));
+        ui.ctx().request_repaint_after(std::time::Duration::from_secs(5));
+    }
+
+    fn paint_words(&mut self, ui: &egui::Ui, brush: &Brush<'_>) {
+        let now = ui.input(|input| input.time);
+        match &self.words {
+            Some((text, at, until)) if now < *until => {
+                draw::words(brush.painter, *at, text, theme::ERROR, &brush.colors);
+                tell_words(ui, text);
+            }
+            _ => self.words = None,
+        }
+    }
+
+    /// Buttons in the corner for what the keys do.
+    fn bar(&mut self, ui: &mut egui::Ui, rect: Rect, desk: &mut Desk<'_>, sheet: &Sheet) {
+        let mut ui = ui
+            .new_child(egui::UiBuilder::new().max_rect(rect).layout(egui::Layout::left_to_right(egui::Align::Center)));
+        ui.spacing_mut().item_spacing.x = 4.0;
+        if ui.button("Add").on_hover_text("Add a node (Space)").clicked() {
+            let at = desk.lens.to_canvas(desk.lens.pane.center());
+            let below = pos2(rect.left(), rect.bottom() + 4.0);
+            self.open_palette(desk, below, Purpose { at, ..Purpose::default() });
+        }
+        if ui.button("Arrange").on_hover_text("Put the nodes in columns, in the order of their wires (L)").clicked() {
+            self.arrange(desk, sheet);
+        }
+        if ui.button("Fit").on_hover_text("Show all nodes (Home)").clicked() {
+            self.fit(desk, sheet, false);
+        }
+        ui.weak(format!("{:.0} %", desk.lens.view.zoom * 100.0));
+        let path = desk.session.path();
+        if path.is_empty() {
+            return;
+        }
+        ui.separator();
+        let document = desk.session.document();
+        let names = path.iter().map(|id| {
+            let label = document.groups.get(id).map_or("", |group| group.interface.label.as_str());
+            if label.is_empty() { id.as_str() } else { label }
+        });
+        for (depth, name) in std::iter::once(document.name.as_str()).chain(names).enumerate() {
+            if depth > 0 {
+                ui.weak("/");
+            }
+            let crumb = ui.selectable_label(depth == path.len(), name);
+            if crumb.on_hover_text("Go to this level (Backspace leaves the innermost)").clicked() {
+                desk.actions.push(Action::Enter(path[..depth].to_vec()));
+            }
+        }
+    }
+
+    /// Puts the selected cards, or all when fewer than two are selected, in columns.
+    fn arrange(&mut self, desk: &mut Desk<'_>, sheet: &Sheet) {
+        let selected: Vec<usize> = (0..sheet.cards.len()).filter(|&i| sheet.cards[i].is_selected).collect();
+        let chosen = if selected.len() >= 2 { selected } else { (0..sheet.cards.len()).collect() };
+        let corner =
+            Sheet::bounds(chosen.iter().map(|&i| &sheet.cards[i])).map_or(Pos2::ZERO, |rect| view::to_grid(rect.min));
+        let places = arrange::places(&sheet.cards, &sheet.wires, &chosen);
+        let edits: Vec<Edit> =
+            places.into_iter().map(|(i, place)| moved(&sheet.cards[i], corner + place.to_vec2())).collect();
+        if !edits.is_empty() {
+            desk.make("Arrange nodes", Edit::Many(edits));
+        }
+    }
+}
+
+/// Tells screen readers words that are painted.
+fn tell_words(ui: &egui::Ui, text: &str) {
+    ui.ctx().accesskit_node_builder(Id::new("graph words"), |node| {
+        node.set_role(egui::accesskit::Role::Alert);
+        node.set_label(text.to_owned());
+        node.set_bounds(egui::accesskit::Rect::ZERO);
+    });
 }

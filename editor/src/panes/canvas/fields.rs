@@ -1,0 +1,234 @@
+//! Values and names that are changed on a card: numbers are written, colours picked, switches turned.
+
+use eframe::egui::{self, Color32, Id, Key, Rect, ecolor::Hsva, pos2, vec2};
+use halfvector_graph::document::{NodeId, SocketRef};
+use halfvector_graph::edit::Edit;
+use halfvector_graph::value::Value;
+
+use super::notes::{self, NoteId};
+use super::sheet::{Field, HEADER, Sheet, Side, number};
+use super::{Canvas, Desk};
+use crate::action::Action;
+
+/// What is being changed.
+#[derive(Debug)]
+pub(super) enum Editing {
+    /// One number or several, written with commas.
+    Numbers {
+        socket: SocketRef,
+        text: String,
+        count: usize,
+        is_new: bool,
+    },
+    Color {
+        socket: SocketRef,
+        hsva: Hsva,
+        scale: f32,
+        is_new: bool,
+    },
+    Name {
+        node: NodeId,
+        text: String,
+        is_new: bool,
+    },
+    /// The title of a frame or the words of a comment.
+    Note {
+        note: NoteId,
+        text: String,
+        is_new: bool,
+    },
+}
+
+impl Field {
+    /// What it shows, as text.
+    pub(super) fn text(&self) -> String {
+        match self {
+            Field::None => String::new(),
+            Field::Number { value, .. } => number(*value),
+            Field::Color(color) => color.map(number).join(", "),
+            Field::Switch(on) => on.to_string(),
+            Field::Vector { text, .. } | Field::Note(text) => text.clone(),
+        }
+    }
+}
+
+impl Canvas {
+    /// Begins to change the value of an input.
+    pub(super) fn edit_field(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, card: usize, row: usize) {
+        let (card, row) = (&sheet.cards[card], &sheet.cards[card].rows[row]);
+        let socket = SocketRef::new(&card.id, &row.name);
+        match &row.field {
+            Field::Number { value, .. } => {
+                self.editing = Some(Editing::Numbers { socket, text: value.to_string(), count: 1, is_new: true });
+            }
+            Field::Vector { text, count } => {
+                self.editing = Some(Editing::Numbers { socket, text: text.clone(), count: *count, is_new: true });
+            }
+            Field::Color(color) => {
+                // The picker goes up to 1; what is brighter keeps its brightness.
+                let scale = color.iter().copied().fold(1.0, f32::max);
+                let hsva = Hsva::from_rgb(color.map(|x| (x / scale).max(0.0)));
+                self.editing = Some(Editing::Color { socket, hsva, scale, is_new: true });
+            }
+            Field::Switch(on) => {
+                let edit = Edit::SetValue { socket, value: Some(Value::Bool(!on)) };
+                desk.make(format!("Set {}", row.name), edit);
+            }
+            Field::None | Field::Note(_) => {}
+        }
+    }
+
+    /// Begins to rename a node.
+    pub(super) fn rename(&mut self, sheet: &Sheet, node: &str) {
+        if let Some(card) = sheet.card(node) {
+            self.editing = Some(Editing::Name { node: node.to_owned(), text: card.title.clone(), is_new: true });
+        }
+    }
+
+    /// Shows what is being changed, in its place.
+    pub(super) fn fields(&mut self, ui: &mut egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) {
+        let Some(mut editing) = self.editing.take() else { return };
+        let is_open = match &mut editing {
+            Editing::Numbers { socket, text, count, is_new } => {
+                let Some(rect) = place(sheet, socket) else { return };
+                let rect = desk.lens.rect_to_screen(rect).expand(2.0);
+                let (is_open, is_done) = write(ui, rect, text, std::mem::take(is_new), desk, "Value");
+                if is_done && let Some(value) = parsed(text, *count) {
+                    let edit = Edit::SetValue { socket: socket.clone(), value: Some(value) };
+                    desk.make(format!("Set {}", socket.socket), edit);
+                }
+                is_open
+            }
+            Editing::Name { node, text, is_new } => {
+                let Some(card) = sheet.card(node) else { return };
+                let rect = Rect::from_min_size(card.rect().min, vec2(card.size.x, HEADER));
+                let rect = desk.lens.rect_to_screen(rect).shrink(2.0);
+                let (is_open, is_done) = write(ui, rect, text, std::mem::take(is_new), desk, "Name");
+                if is_done && *text != card.title {
+                    let label = Some(text.trim().to_owned()).filter(|text| !text.is_empty());
+                    desk.make("Rename node", Edit::SetLabel { id: node.clone(), label });
+                }
+                is_open
+            }
+            Editing::Note { note, text, is_new } => {
+                let Some(note) = sheet.notes.iter().find(|other| other.id == *note) else { return };
+                let rect = desk.lens.rect_to_screen(note.rect);
+                let is_new = std::mem::take(is_new);
+                let (is_open, is_done) = match note.id {
+                    NoteId::Frame(_) => {
+                        let title =
+                            Rect::from_min_size(rect.min, vec2(rect.width(), notes::TITLE * desk.lens.view.zoom));
+                        write(ui, title.shrink(2.0), text, is_new, desk, "Title")
+                    }
+                    NoteId::Comment(_) => notes::write_lines(ui, rect, text, is_new, desk.lens.view.zoom),
+                };
+                if is_done && *text != note.text {
+                    let edits = note.written(desk.graph, text).into_iter().collect();
+                    desk.edit(sheet, format!("Write {}", note.kind()), edits);
+                }
+                is_open
+            }
+            Editing::Color { socket, hsva, scale, is_new } => {
+                let Some(rect) = place(sheet, socket) else { return };
+                pick(ui, desk, desk.lens.rect_to_screen(rect), socket, hsva, *scale, std::mem::take(is_new))
+            }
+        };
+        if is_open {
+            self.editing = Some(editing);
+        } else {
+            ui.memory_mut(|memory| memory.request_focus(Id::new("graph canvas")));
+        }
+    }
+}
+
+/// Where the value of an input is shown.
+fn place(sheet: &Sheet, socket: &SocketRef) -> Option<Rect> {
+    let (card, row) = sheet.find(socket, Side::Input)?;
+    sheet.cards[card].field(&sheet.cards[card].rows[row])
+}
+
+/// A field to write in; whether it stays open, and whether what stands there is meant.
+fn write(ui: &mut egui::Ui, rect: Rect, text: &mut String, is_new: bool, desk: &Desk<'_>, label: &str) -> (bool, bool) {
+    let rect = Rect::from_center_size(rect.center(), rect.size().max(vec2(84.0, 20.0)));
+    let size = (12.0 * desk.lens.view.zoom).clamp(11.0, 18.0);
+    let id = Id::new("graph field");
+    let edit = egui::TextEdit::singleline(text).id(id).font(egui::FontId::proportional(size)).margin(vec2(4.0, 1.0));
+    let response = ui.put(rect, edit.vertical_align(egui::Align::Center));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, label));
+    if is_new {
+        response.request_focus();
+        let mut state = egui::text_edit::TextEditState::load(ui.ctx(), id).unwrap_or_default();
+        let all =
+            egui::text::CCursorRange::two(egui::text::CCursor::new(0), egui::text::CCursor::new(text.chars().count()));
+        state.cursor.set_char_range(Some(all));
+        state.store(ui.ctx(), id);
+        return (true, false);
+    }
+    let is_given_up = ui.input(|input| input.key_pressed(Key::Escape));
+    let is_done = response.lost_focus() && !is_given_up;
+    (!response.lost_focus() && !is_given_up, is_done)
+}
+
+/// Numbers as they were written: as many as wanted, or one for all.
+fn parsed(text: &str, count: usize) -> Option<Value> {
+    let parts: Option<Vec<f32>> = text
+        .split([',', ';', ' '])
+        .filter(|part| !part.is_empty())
+        .map(|part| part.parse().ok().filter(|x: &f32| x.is_finite()))
+        .collect();
+    let parts = parts?;
+    let parts = if parts.len() == 1 { vec![parts[0]; count] } else { parts };
+    match *parts.as_slice() {
+        [x] if count == 1 => Some(Value::Number(x)),
+        [x, y] if count == 2 => Some(Value::Vec2([x, y])),
+        [x, y, z] if count == 3 => Some(Value::Vec3([x, y, z])),
+        [x, y, z, w] if count == 4 => Some(Value::Vec4([x, y, z, w])),
+        _ => None,
+    }
+}
+
+/// The colour picker under a swatch; whether it stays open.
+fn pick(
+    ui: &egui::Ui,
+    desk: &mut Desk<'_>,
+    swatch: Rect,
+    socket: &SocketRef,
+    hsva: &mut Hsva,
+    scale: f32,
+    is_new: bool,
+) -> bool {
+    let key = format!("canvas {socket}");
+    let area = egui::Area::new(Id::new("graph colour")).order(egui::Order::Foreground);
+    let at = pos2(swatch.left(), swatch.bottom() + 4.0);
+    let shown = area.fixed_pos(at).constrain_to(ui.ctx().content_rect()).show(ui.ctx(), |ui| {
+        egui::Frame::popup(ui.style()).show(ui, |ui| {
+            ui.spacing_mut().slider_width = 240.0;
+            let mut is_changed = egui::color_picker::color_picker_hsva_2d(ui, hsva, egui::color_picker::Alpha::Opaque);
+            let mut rgb = hsva.to_rgb().map(|x| x * scale);
+            ui.horizontal(|ui| {
+                for (name, part) in ["Red", "Green", "Blue"].into_iter().zip(&mut rgb) {
+                    let drag = egui::DragValue::new(part).speed(0.003).range(0.0..=scale).max_decimals(4);
+                    let response = ui.add(drag).on_hover_text(format!("{name}, linear"));
+                    if response.changed() {
+                        is_changed = true;
+                    }
+                }
+            });
+            if is_changed {
+                *hsva = Hsva::from_rgb(rgb.map(|x| x / scale));
+                let edit = Edit::SetValue { socket: socket.clone(), value: Some(Value::Vec3(rgb)) };
+                desk.drag(format!("Set {}", socket.socket), edit, &key);
+            }
+        });
+    });
+    let closes = !is_new && (shown.response.clicked_elsewhere() || ui.input(|input| input.key_pressed(Key::Escape)));
+    if closes {
+        desk.actions.push(Action::EndMerge);
+    }
+    !closes
+}
+
+/// The colour of a swatch on the screen.
+pub(super) fn on_screen([r, g, b]: [f32; 3]) -> Color32 {
+    Color32::from(egui::Rgba::from_rgb(r.clamp(0.0, 1.0), g.clamp(0.0, 1.0), b.clamp(0.0, 1.0)))
+}

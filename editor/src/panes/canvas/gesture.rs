@@ -1,0 +1,537 @@
+//! What the pointer does on the canvas: pan, select, move, wire, change a number. A gesture changes the document when it
+//! ends (a number while it is dragged), and not at all when Escape comes before.
+
+use std::collections::BTreeSet;
+
+use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Stroke, StrokeKind, Vec2};
+use halfvector_graph::document::{Link, NodeId, SocketRef, group_of};
+use halfvector_graph::edit::Edit;
+use halfvector_graph::value::Value;
+
+use super::draw::{self, Brush};
+use super::fit::{self, Loose, candidates, refusal};
+use super::guides::{self, Snapped};
+use super::hit::{self, Hit};
+use super::notes::{self, NoteId, Part};
+use super::sheet::{Card, Field, REROUTE, REROUTE_SIZE, Sheet, Side};
+use super::view::to_grid;
+use super::{Canvas, Desk, Purpose, edits, moved};
+use crate::action::Action;
+use crate::theme;
+
+/// How near to a socket a wire may be dropped, in screen points.
+const DROP_REACH: f32 = 22.0;
+
+/// What the pointer is doing.
+#[derive(Debug, Default)]
+pub(super) enum Gesture {
+    #[default]
+    Idle,
+    Pan,
+    /// A rectangle is drawn around what is to be selected.
+    Box {
+        /// Canvas point where it began.
+        from: Pos2,
+        /// What was selected before and stays so.
+        kept: BTreeSet<NodeId>,
+    },
+    Move {
+        ids: BTreeSet<NodeId>,
+        /// Canvas point where it began.
+        from: Pos2,
+        snapped: Snapped,
+        /// The wire that the node would be put into.
+        into: Option<usize>,
+    },
+    Wire {
+        loose: Loose,
+        /// The link that was taken from its input.
+        taken: Option<Link>,
+        /// What the last socket under the pointer says to the link.
+        asked: Option<(Link, Option<String>)>,
+    },
+    /// A frame or comment is moved, with the nodes that lie in it, or changes its size.
+    Note {
+        note: NoteId,
+        part: Part,
+        /// Canvas point where it began.
+        from: Pos2,
+        way: Vec2,
+        ids: BTreeSet<NodeId>,
+    },
+    Number {
+        socket: SocketRef,
+        value: f64,
+        per_point: f64,
+        is_whole: bool,
+        is_changed: bool,
+    },
+}
+
+/// Where a wire would end.
+#[derive(Clone, Debug, PartialEq)]
+enum Target {
+    Nothing,
+    /// Over a card whose sockets do not fit.
+    Card,
+    /// Card and row.
+    Socket(usize, usize),
+}
+
+impl Gesture {
+    pub(super) fn is_idle(&self) -> bool {
+        matches!(self, Gesture::Idle)
+    }
+
+    /// The wire that looks for its other end.
+    pub(super) fn loose(&self) -> Option<&Loose> {
+        match self {
+            Gesture::Wire { loose, .. } => Some(loose),
+            _ => None,
+        }
+    }
+
+    /// The link that is not drawn, as it was taken up.
+    pub(super) fn lifted(&self) -> Option<&Link> {
+        match self {
+            Gesture::Wire { taken, .. } => taken.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// The wire that a dragged node lies on.
+    pub(super) fn over_wire(&self) -> Option<usize> {
+        match self {
+            Gesture::Move { into, .. } => *into,
+            _ => None,
+        }
+    }
+}
+
+impl Canvas {
+    /// Follows the pointer through a frame.
+    pub(super) fn pointer(&mut self, ui: &egui::Ui, response: &Response, desk: &mut Desk<'_>, sheet: &mut Sheet) {
+        let pressed = ui.input(|input| input.pointer.any_pressed());
+        if pressed && response.contains_pointer() {
+            response.request_focus();
+        }
+        let Some(at) = ui.input(|input| input.pointer.latest_pos()) else { return };
+        let modifiers = ui.input(|input| input.modifiers);
+        if response.drag_started() {
+            self.words = None;
+            let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
+            let pans = !response.drag_started_by(PointerButton::Primary) || modifiers.alt;
+            self.gesture = if pans { Gesture::Pan } else { self.begin(desk, sheet, origin, modifiers) };
+        }
+        if response.dragged() {
+            self.go_on(ui, response, desk, sheet, at);
+        }
+        if response.drag_stopped() {
+            self.finish(ui, desk, sheet, at);
+        }
+        if response.clicked_by(PointerButton::Primary) {
+            self.click(desk, sheet, at, modifiers);
+        }
+        if response.double_clicked_by(PointerButton::Primary) {
+            self.double_click(desk, sheet, at);
+        }
+        self.shift(sheet);
+    }
+
+    /// Gives up what is half done.
+    pub(super) fn cancel(&mut self, desk: &mut Desk<'_>) {
+        if let Gesture::Number { is_changed: true, .. } = self.gesture {
+            desk.actions.push(Action::EndMerge);
+            desk.actions.push(Action::Undo);
+        }
+        self.gesture = Gesture::Idle;
+    }
+
+    fn begin(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, origin: Pos2, modifiers: egui::Modifiers) -> Gesture {
+        let from = desk.lens.to_canvas(origin);
+        match hit::hit(sheet, desk.lens, origin) {
+            Hit::Socket(card, row) => wire_from(sheet, card, row),
+            Hit::Field(card, row) if matches!(sheet.cards[card].rows[row].field, Field::Number { .. }) => {
+                number_from(&sheet.cards[card], row)
+            }
+            Hit::Card(card) | Hit::Field(card, _) | Hit::Fold(card) => {
+                let id = &sheet.cards[card].id;
+                let mut ids = desk.session.selection().clone();
+                if !ids.contains(id) {
+                    if !modifiers.shift && !modifiers.command {
+                        ids.clear();
+                    }
+                    ids.insert(id.clone());
+                    desk.actions.push(Action::Select(ids.iter().cloned().collect()));
+                }
+                Gesture::Move { ids, from, snapped: Snapped::default(), into: None }
+            }
+            Hit::Note(note, part) => {
+                let note = &sheet.notes[note];
+                self.picked = Some(note.id.clone());
+                let held = sheet.cards.iter().filter(|card| part == Part::Title && note.holds(card));
+                let ids = held.map(|card| card.id.clone()).collect();
+                Gesture::Note { note: note.id.clone(), part, from, way: Vec2::ZERO, ids }
+            }
+            Hit::Empty | Hit::Wire(_) => {
+                let keeps = modifiers.shift || modifiers.command;
+                let kept = if keeps { desk.session.selection().clone() } else { BTreeSet::new() };
+                Gesture::Box { from, kept }
+            }
+        }
+    }
+
+    fn go_on(&mut self, ui: &egui::Ui, response: &Response, desk: &mut Desk<'_>, sheet: &mut Sheet, at: Pos2) {
+        let modifiers = ui.input(|input| input.modifiers);
+        match &mut self.gesture {
+            Gesture::Idle => {}
+            Gesture::Pan => {
+                desk.lens.view = desk.lens.panned(response.drag_delta());
+                ui.set_cursor_icon(egui::CursorIcon::Grabbing);
+            }
+            Gesture::Box { from, kept } => {
+                let rect = Rect::from_two_pos(*from, desk.lens.to_canvas(at));
+                let mut ids = kept.clone();
+                ids.extend(sheet.cards.iter().filter(|card| card.rect().intersects(rect)).map(|card| card.id.clone()));
+                if ids != *desk.session.selection() {
+                    desk.actions.push(Action::Select(ids.into_iter().collect()));
+                }
+            }
+            Gesture::Move { ids, from, snapped, into } => {
+                let way = desk.lens.to_canvas(at) - *from;
+                *snapped = if self.keeps_off_grid != modifiers.command {
+                    Snapped { way, lines: Vec::new() }
+                } else {
+                    snap(sheet, ids, way, desk.lens)
+                };
+                *into = wire_for(sheet, ids, desk, at);
+                ui.set_cursor_icon(egui::CursorIcon::Move);
+            }
+            Gesture::Note { note, part, from, way, .. } => {
+                *way = desk.lens.to_canvas(at) - *from;
+                if self.keeps_off_grid == modifiers.command
+                    && let Some(rect) = sheet.notes.iter().find(|other| other.id == *note).map(|note| note.rect)
+                {
+                    let corner = if *part == Part::Title { rect.min } else { rect.max };
+                    *way = to_grid(corner + *way) - corner;
+                }
+                let icon = if *part == Part::Title { egui::CursorIcon::Move } else { egui::CursorIcon::ResizeNwSe };
+                ui.set_cursor_icon(icon);
+            }
+            Gesture::Wire { .. } => ui.set_cursor_icon(egui::CursorIcon::Crosshair),
+            Gesture::Number { socket, value, per_point, is_whole, is_changed } => {
+                let fine = if modifiers.shift { 0.1 } else { 1.0 };
+                *value += f64::from(response.drag_delta().x) * *per_point * fine;
+                let shown = if *is_whole { value.round() } else { rounded(*value, *per_point * fine) };
+                let value = Some(Value::Number(shown as f32));
+                if desk.graph.value(socket) != value.as_ref() {
+                    *is_changed = true;
+                    let edit = Edit::SetValue { socket: socket.clone(), value };
+                    desk.drag(format!("Set {}", socket.socket), edit, &format!("canvas {socket}"));
+                }
+                ui.set_cursor_icon(egui::CursorIcon::ResizeHorizontal);
+            }
+        }
+    }
+
+    fn finish(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &mut Sheet, at: Pos2) {
+        self.shift(sheet);
+        match std::mem::take(&mut self.gesture) {
+            Gesture::Idle | Gesture::Pan | Gesture::Box { .. } => {}
+            Gesture::Move { ids, into, .. } => {
+                let dragged = sheet.cards.iter().filter(|card| ids.contains(&card.id) && card.shift != Vec2::ZERO);
+                let mut all: Vec<Edit> = dragged.map(|card| moved(card, card.rect().min)).collect();
+                let mut name =
+                    if all.len() == 1 { "Move node".to_owned() } else { format!("Move {} nodes", all.len()) };
+                if let Some(link) = into.map(|i| &sheet.wires[i].link)
+                    && let Some(node) = ids.first()
+                    && let Some(edits) =
+                        edits::insert(desk.graph, desk.library, node, &desk.graph.nodes[node].node, link)
+                {
+                    all.extend(edits);
+                    name = "Insert node into wire".into();
+                }
+                if !all.is_empty() {
+                    desk.edit(sheet, name, all);
+                }
+            }
+            Gesture::Note { note, part, way, .. } if way != Vec2::ZERO => {
+                let held = sheet.cards.iter().filter(|card| card.shift != Vec2::ZERO);
+                let mut all: Vec<Edit> = held.map(|card| moved(card, card.rect().min)).collect();
+                if let Some(note) = sheet.notes.iter().find(|other| other.id == note) {
+                    all.extend(note.placed(desk.graph, notes::changed(note.rect, part, way)));
+                    let verb = if part == Part::Title { "Move" } else { "Resize" };
+                    desk.edit(sheet, format!("{verb} {}", note.kind()), all);
+                }
+            }
+            Gesture::Note { .. } => {}
+            Gesture::Wire { loose, taken, .. } => self.drop_wire(ui, desk, sheet, at, loose, taken),
+            Gesture::Number { .. } => desk.actions.push(Action::EndMerge),
+        }
+    }
+
+    fn drop_wire(
+        &mut self,
+        ui: &egui::Ui,
+        desk: &mut Desk<'_>,
+        sheet: &Sheet,
+        at: Pos2,
+        loose: Loose,
+        taken: Option<Link>,
+    ) {
+        match target(sheet, desk, at, &loose) {
+            Target::Socket(card, row) => {
+                let link = loose.link(SocketRef::new(&sheet.cards[card].id, &sheet.cards[card].rows[row].name));
+                if taken.as_ref() == Some(&link) {
+                    return;
+                }
+                if let Some(why) = refusal(desk.session, &link) {
+                    return self.say(ui, at, why);
+                }
+                let mut all: Vec<Edit> = taken.into_iter().map(|link| Edit::RemoveLink { link }).collect();
+                all.push(Edit::AddLink { link });
+                desk.edit(sheet, "Connect", all);
+            }
+            Target::Card => self.say(ui, at, "Nothing of this node goes together with the wire.".into()),
+            Target::Nothing => match taken {
+                Some(link) => desk.edit(sheet, "Disconnect", vec![Edit::RemoveLink { link }]),
+                None => {
+                    let purpose = Purpose { at: desk.lens.to_canvas(at), loose: Some(loose), into: None };
+                    self.open_palette(desk, at, purpose);
+                }
+            },
+        }
+    }
+
+    fn double_click(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
+        match hit::hit(sheet, desk.lens, at) {
+            Hit::Empty => {
+                let purpose = Purpose { at: desk.lens.to_canvas(at), ..Purpose::default() };
+                self.open_palette(desk, at, purpose);
+            }
+            Hit::Wire(wire) => {
+                let link = sheet.wires[wire].link.clone();
+                self.bend(desk, sheet, &link, desk.lens.to_canvas(at));
+            }
+            Hit::Note(note, _) => self.write_note(&sheet.notes[note]),
+            Hit::Card(card) => {
+                let card = &sheet.cards[card];
+                if let Some(group) = group_of(&card.definition) {
+                    desk.enter(group);
+                } else if desk.lens.to_canvas(at).y < card.rect().top() + super::sheet::HEADER {
+                    self.rename(sheet, &card.id);
+                }
+            }
+            Hit::Socket(..) | Hit::Field(..) | Hit::Fold(_) => {}
+        }
+    }
+
+    /// Puts a reroute into a wire.
+    pub(super) fn bend(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, link: &Link, at: Pos2) {
+        let at = to_grid(at);
+        let mut arrival = edits::add(desk.graph, REROUTE, [at.x - REROUTE_SIZE.x / 2.0, at.y - REROUTE_SIZE.y / 2.0]);
+        if let Some(edits) = edits::insert(desk.graph, desk.library, &arrival.ids[0], REROUTE, link) {
+            arrival.edits.extend(edits);
+            desk.arrive(sheet, "Add reroute", arrival);
+        }
+    }
+
+    fn click(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2, modifiers: egui::Modifiers) {
+        let hit = hit::hit(sheet, desk.lens, at);
+        match hit {
+            Hit::Fold(card) => {
+                let id = &sheet.cards[card].id;
+                if !self.unfolded.remove(id) {
+                    self.unfolded.insert(id.clone());
+                }
+            }
+            Hit::Field(card, row) => self.edit_field(desk, sheet, card, row),
+            _ => {}
+        }
+        self.picked = match hit {
+            Hit::Note(note, _) => Some(sheet.notes[note].id.clone()),
+            _ => None,
+        };
+        let Some(card) = hit.card() else {
+            if !modifiers.shift && !modifiers.command && !desk.session.selection().is_empty() {
+                desk.actions.push(Action::Select(Vec::new()));
+            }
+            return;
+        };
+        let id = sheet.cards[card].id.clone();
+        let mut ids = desk.session.selection().clone();
+        if modifiers.shift || modifiers.command {
+            if !ids.remove(&id) {
+                ids.insert(id);
+            }
+        } else {
+            ids = BTreeSet::from([id]);
+        }
+        if ids != *desk.session.selection() {
+            desk.actions.push(Action::Select(ids.into_iter().collect()));
+        }
+    }
+
+    /// Shows dragged cards where they are dragged to.
+    fn shift(&self, sheet: &mut Sheet) {
+        let (ids, way) = match &self.gesture {
+            Gesture::Move { ids, snapped, .. } => (ids, snapped.way),
+            Gesture::Note { ids, way, note, part, .. } => {
+                if let Some(note) = sheet.notes.iter_mut().find(|other| other.id == *note) {
+                    note.shown = notes::changed(note.rect, *part, *way);
+                }
+                (ids, *way)
+            }
+            _ => return,
+        };
+        sheet.cards.iter_mut().filter(|card| ids.contains(&card.id)).for_each(|card| card.shift = way);
+    }
+
+    /// Paints what the pointer is doing.
+    pub(super) fn paint_gesture(
+        &mut self,
+        ui: &egui::Ui,
+        brush: &Brush<'_>,
+        desk: &Desk<'_>,
+        sheet: &Sheet,
+        pointer: Option<Pos2>,
+    ) {
+        let Some(at) = pointer else { return };
+        let lens = brush.lens;
+        match &mut self.gesture {
+            Gesture::Box { from, .. } => {
+                let rect = Rect::from_two_pos(lens.to_screen(*from), at);
+                let fill = theme::ACCENT.gamma_multiply(0.12);
+                brush.painter.rect(rect, 2.0, fill, Stroke::new(1.0, theme::ACCENT), StrokeKind::Inside);
+            }
+            Gesture::Move { snapped, .. } => {
+                for line in &snapped.lines {
+                    brush.painter.line_segment(line.map(|end| lens.to_screen(end)), Stroke::new(1.0, theme::ACCENT));
+                }
+            }
+            Gesture::Wire { loose, asked, .. } => {
+                let socket = loose.socket().clone();
+                let side = if matches!(loose, Loose::Output(..)) { Side::Output } else { Side::Input };
+                let Some(fixed) = sheet.find(&socket, side).map(|place| lens.to_screen(sheet.socket(place))) else {
+                    return;
+                };
+                let mut color = theme::socket_color(loose.ty());
+                let mut end = at;
+                if let Target::Socket(card, row) = target(sheet, desk, at, loose) {
+                    let link = loose.link(SocketRef::new(&sheet.cards[card].id, &sheet.cards[card].rows[row].name));
+                    if asked.as_ref().is_none_or(|(other, _)| *other != link) {
+                        let why = refusal(desk.session, &link);
+                        *asked = Some((link, why));
+                    }
+                    end = lens.to_screen(sheet.socket((card, row)));
+                    if let Some((_, Some(why))) = asked {
+                        color = theme::ERROR;
+                        draw::words(brush.painter, at, why, color, &brush.colors);
+                        super::tell_words(ui, why);
+                    }
+                    brush.ring(end, color);
+                }
+                match side {
+                    Side::Output => brush.loose_wire(fixed, end, color),
+                    _ => brush.loose_wire(end, fixed, color),
+                }
+            }
+            Gesture::Idle | Gesture::Pan | Gesture::Note { .. } | Gesture::Number { .. } => {}
+        }
+    }
+}
+
+/// A wire taken up at a socket: of a wired input the other end, of any other socket a new one.
+fn wire_from(sheet: &Sheet, card: usize, row: usize) -> Gesture {
+    let (own, socket) = (&sheet.cards[card], &sheet.cards[card].rows[row]);
+    let name = SocketRef::new(&own.id, &socket.name);
+    let wire = sheet.wires.iter().find(|wire| wire.to == (card, row));
+    let (loose, taken) = match (socket.side, wire) {
+        (Side::Input, Some(wire)) => (Loose::Output(wire.link.from.clone(), wire.ty), Some(wire.link.clone())),
+        (Side::Input, None) => (Loose::Input(name, candidates(socket.ty, socket.is_generic, &own.generic)), None),
+        _ => (Loose::Output(name, socket.ty), None),
+    };
+    Gesture::Wire { loose, taken, asked: None }
+}
+
+fn number_from(card: &Card, row: usize) -> Gesture {
+    let row = &card.rows[row];
+    let Field::Number { value, range, is_whole, .. } = &row.field else { return Gesture::Idle };
+    let span = range.map(|[low, high]| f64::from(high) - f64::from(low)).filter(|span| span.is_finite() && *span > 0.0);
+    let per_point = match span {
+        _ if *is_whole => 0.1,
+        Some(span) => span / 200.0,
+        None => (f64::from(value.abs()) * 0.01).max(0.01),
+    };
+    Gesture::Number {
+        socket: SocketRef::new(&card.id, &row.name),
+        value: f64::from(*value),
+        per_point,
+        is_whole: *is_whole,
+        is_changed: false,
+    }
+}
+
+/// A value to the digits that a drag can choose.
+fn rounded(value: f64, step: f64) -> f64 {
+    let unit = 10f64.powf(step.abs().max(1e-9).log10().floor());
+    (value / unit).round() * unit
+}
+
+fn snap(sheet: &Sheet, ids: &BTreeSet<NodeId>, way: Vec2, lens: super::Lens) -> Snapped {
+    let (mut moving, mut others) = (None::<Rect>, Vec::new());
+    let seen = lens.seen();
+    for card in &sheet.cards {
+        let rect = Rect::from_min_size(card.place, card.size);
+        if ids.contains(&card.id) {
+            moving = Some(moving.map_or(rect, |all| all.union(rect)));
+        } else if seen.intersects(rect) {
+            others.push(rect);
+        }
+    }
+    moving.map_or_else(Snapped::default, |moving| guides::snap(moving, &others, way, lens.view.zoom))
+}
+
+/// The wire that a single unwired node is dragged on to, when it fits in there.
+fn wire_for(sheet: &Sheet, ids: &BTreeSet<NodeId>, desk: &Desk<'_>, at: Pos2) -> Option<usize> {
+    let id = ids.first().filter(|_| ids.len() == 1)?;
+    let card = sheet.card(id)?;
+    if card.rows.iter().any(|row| row.is_wired) {
+        return None;
+    }
+    let def = desk.library.get(&card.definition)?;
+    hit::wire_at(sheet, desk.lens, at, |i| {
+        let wire = &sheet.wires[i];
+        let (to, row) = (&sheet.cards[wire.to.0], &sheet.cards[wire.to.0].rows[wire.to.1]);
+        let wanted = candidates(row.ty, row.is_generic, &to.generic);
+        wanted.into_iter().any(|wanted| fit::through(def, wire.ty, wanted).is_some())
+    })
+}
+
+/// Where a wire that is dropped at a point would end: at the nearest socket of the right side; on a card at the first free
+/// socket that fits.
+fn target(sheet: &Sheet, desk: &Desk<'_>, at: Pos2, loose: &Loose) -> Target {
+    let wanted = if matches!(loose, Loose::Output(..)) { Side::Input } else { Side::Output };
+    let own = loose.socket();
+    let near = hit::socket_near(sheet, desk.lens, at, DROP_REACH, |side| side == wanted);
+    if let Some((card, row)) = near {
+        return Target::Socket(card, row);
+    }
+    let Some(card) = hit::card_at(sheet, desk.lens, at) else { return Target::Nothing };
+    let over = &sheet.cards[card];
+    if over.id == own.node {
+        return Target::Nothing;
+    }
+    // On the line of an input that one is meant, whether it fits or not.
+    let y = desk.lens.to_canvas(at).y - over.rect().top();
+    let level = over
+        .rows
+        .iter()
+        .position(|row| row.side == wanted && row.has_socket() && (row.y - y).abs() <= super::sheet::ROW / 2.0);
+    let free =
+        || over.rows.iter().position(|row| loose.fits_row(over, row) && (!row.is_wired || wanted == Side::Output));
+    match level.or_else(free) {
+        Some(row) => Target::Socket(card, row),
+        None => Target::Card,
+    }
+}

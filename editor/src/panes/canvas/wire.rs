@@ -1,0 +1,57 @@
+//! The curve of a wire: its points on the screen and how far it is from a point.
+
+use eframe::egui::{Pos2, Rect, vec2};
+
+/// Points of the curve from an output to an input: a cubic that leaves and arrives level.
+pub(super) fn curve(from: Pos2, to: Pos2, zoom: f32, out: &mut Vec<Pos2>) {
+    out.clear();
+    let reach = reach(from, to, zoom);
+    let (a, b) = (from + vec2(reach, 0.0), to - vec2(reach, 0.0));
+    let steps = steps(from, to);
+    for i in 0..=steps {
+        let t = i as f32 / steps as f32;
+        let s = 1.0 - t;
+        let weights = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+        let point = from.to_vec2() * weights[0]
+            + a.to_vec2() * weights[1]
+            + b.to_vec2() * weights[2]
+            + to.to_vec2() * weights[3];
+        out.push(point.to_pos2());
+    }
+}
+
+/// A rectangle that the curve does not leave.
+pub(super) fn bounds(from: Pos2, to: Pos2, zoom: f32) -> Rect {
+    // The control points span a hull around the curve.
+    let reach = reach(from, to, zoom);
+    Rect::from_two_pos(from, to).union(Rect::from_two_pos(from + vec2(reach, 0.0), to - vec2(reach, 0.0))).expand(4.0)
+}
+
+/// How far a point is from a row of points that are joined by lines.
+pub(super) fn distance(points: &[Pos2], to: Pos2) -> f32 {
+    points.windows(2).map(|ends| segment_distance(ends[0], ends[1], to)).fold(f32::INFINITY, f32::min)
+}
+
+/// How far the curve's handles stick out: half of the way, with a little slack for wires that lead back.
+fn reach(from: Pos2, to: Pos2, zoom: f32) -> f32 {
+    let way = to - from;
+    if way.x >= 0.0 {
+        (way.x * 0.5).max((way.y.abs() * 0.35).min(40.0 * zoom))
+    } else {
+        (-way.x * 0.35 + 30.0 * zoom).min(160.0 * zoom)
+    }
+}
+
+fn steps(from: Pos2, to: Pos2) -> usize {
+    let way = to - from;
+    if way.y.abs() < 1.0 && way.x > 0.0 {
+        return 1;
+    }
+    (way.length() / 14.0).clamp(6.0, 28.0) as usize
+}
+
+fn segment_distance(a: Pos2, b: Pos2, point: Pos2) -> f32 {
+    let way = b - a;
+    let along = ((point - a).dot(way) / way.length_sq().max(1e-6)).clamp(0.0, 1.0);
+    (a + way * along).distance(point)
+}

@@ -1,0 +1,367 @@
+//! The graph by mouse and keys: what a person does there is in the document, and undo takes it back to the byte.
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use halfvector_editor::{Action, Editor, Options, egui};
+use halfvector_graph::document::{Document, SocketRef};
+use halfvector_graph::file::to_json;
+
+use super::open;
+
+type Window = Harness<'static, Editor>;
+
+fn window() -> Window {
+    let mut window = open(Options::default());
+    window.run_steps(3);
+    window
+}
+
+fn document(window: &Window) -> &Document {
+    window.state().session().document()
+}
+
+fn text(window: &Window) -> String {
+    to_json(document(window))
+}
+
+fn center(window: &Window, label: &str) -> egui::Pos2 {
+    window.get_by_label(label).rect().center()
+}
+
+/// An empty place of the canvas: left of all nodes, above the middle.
+fn empty_place(window: &Window) -> egui::Pos2 {
+    let graph = window.get_by_label("Graph canvas").rect();
+    graph.left_bottom() + egui::vec2(40.0, -40.0)
+}
+
+fn press(window: &mut Window, at: egui::Pos2, pressed: bool, modifiers: egui::Modifiers) {
+    let button = egui::PointerButton::Primary;
+    window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+    window.step();
+}
+
+fn go(window: &mut Window, at: egui::Pos2) {
+    window.hover_at(at);
+    window.step();
+}
+
+/// Presses at a point, goes to another one in steps and stays there with the button down.
+fn hold(window: &mut Window, from: egui::Pos2, to: egui::Pos2) {
+    go(window, from);
+    press(window, from, true, egui::Modifiers::NONE);
+    for i in 1..=5 {
+        go(window, from + (to - from) * (i as f32 / 5.0));
+    }
+}
+
+fn drag(window: &mut Window, from: egui::Pos2, to: egui::Pos2) {
+    hold(window, from, to);
+    press(window, to, false, egui::Modifiers::NONE);
+    window.run_steps(2);
+}
+
+fn key(window: &mut Window, modifiers: egui::Modifiers, key: egui::Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.step();
+    window.step();
+}
+
+fn write(window: &mut Window, words: &str) {
+    window.event(egui::Event::Text(words.to_owned()));
+    window.step();
+    window.step();
+}
+
+/// Adds a node with the keys alone, the pointer at a place.
+fn add(window: &mut Window, at: egui::Pos2, words: &str) {
+    go(window, at);
+    key(window, egui::Modifiers::NONE, egui::Key::Space);
+    write(window, words);
+    key(window, egui::Modifiers::NONE, egui::Key::Enter);
+}
+
+fn undo_all(window: &mut Window) {
+    while window.state().session().steps()[0].is_some() {
+        window.state_mut().act(Action::Undo);
+    }
+    window.step();
+}
+
+fn redo_all(window: &mut Window) {
+    while window.state().session().steps()[1].is_some() {
+        window.state_mut().act(Action::Redo);
+    }
+    window.step();
+}
+
+fn source(window: &Window, node: &str, input: &str) -> Option<String> {
+    document(window).graph.incoming(&SocketRef::new(node, input)).map(SocketRef::to_string)
+}
+
+#[test]
+fn a_node_is_added_by_keys_and_undo_takes_it_back() {
+    let mut window = window();
+    let before = text(&window);
+    let at = empty_place(&window);
+    add(&mut window, at, "voronoi");
+    let selection = window.state().session().selection();
+    let id = selection.first().expect("the new node is selected").clone();
+    assert!(document(&window).graph.nodes[&id].node.contains("voronoi"), "{id}");
+    assert!(document(&window).graph.layout.contains_key(&id));
+    assert_eq!(window.state().session().steps()[0].map(|step| step.starts_with("Add ")), Some(true));
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(text(&window), before);
+}
+
+#[test]
+fn a_drag_between_sockets_connects_them() {
+    let mut window = window();
+    let from = center(&window, "Output out of Where the enamel is gone");
+    let to = center(&window, "Input metallic of Surface");
+    drag(&mut window, from, to);
+    assert_eq!(source(&window, "surface", "metallic").as_deref(), Some("chips.out"));
+    // From the input back to an output, over the one that is there.
+    let from = center(&window, "Input ior of Surface");
+    let to = center(&window, "Output out of Rust grain");
+    drag(&mut window, from, to);
+    assert_eq!(source(&window, "surface", "ior").as_deref(), Some("grain.out"));
+}
+
+#[test]
+fn a_wire_that_does_not_fit_is_refused_with_the_reason_in_place() {
+    let mut window = window();
+    let before = text(&window);
+    let from = center(&window, "Output out of Enamel over rust");
+    let to = center(&window, "Input metallic of Surface");
+    hold(&mut window, from, to);
+    window.step();
+    assert!(window.query_by_label_contains("components would be lost").is_some());
+    press(&mut window, to, false, egui::Modifiers::NONE);
+    assert_eq!(text(&window), before);
+    // A ring is refused, too.
+    let from = center(&window, "Output out of Enamel is left");
+    let to = center(&window, "Input scale of Where the enamel is gone");
+    hold(&mut window, from, to);
+    window.step();
+    assert!(window.query_by_label_contains("in a ring").is_some());
+    press(&mut window, to, false, egui::Modifiers::NONE);
+    assert_eq!(text(&window), before);
+}
+
+#[test]
+fn a_wire_taken_from_its_input_goes_elsewhere_or_away() {
+    let mut window = window();
+    let from = center(&window, "Input perceptual_roughness of Surface");
+    let to = center(&window, "Input specular of Surface");
+    drag(&mut window, from, to);
+    assert_eq!(source(&window, "surface", "perceptual_roughness"), None);
+    assert_eq!(source(&window, "surface", "specular").as_deref(), Some("roughness.out"));
+    let from = center(&window, "Input specular of Surface");
+    let to = empty_place(&window);
+    drag(&mut window, from, to);
+    assert_eq!(source(&window, "surface", "specular"), None);
+    undo_all(&mut window);
+    assert_eq!(source(&window, "surface", "perceptual_roughness").as_deref(), Some("roughness.out"));
+}
+
+#[test]
+fn a_wire_dropped_on_the_ground_asks_for_a_node_that_fits() {
+    let mut window = window();
+    let from = center(&window, "Output out of Where the enamel is gone");
+    let to = empty_place(&window);
+    drag(&mut window, from, to);
+    assert!(window.query_by_label("Search nodes").is_some());
+    // A node that takes no number is not offered.
+    write(&mut window, "not");
+    assert!(window.query_by_label("Not").is_none());
+    for _ in 0..3 {
+        key(&mut window, egui::Modifiers::NONE, egui::Key::Backspace);
+    }
+    write(&mut window, "absolute");
+    key(&mut window, egui::Modifiers::NONE, egui::Key::Enter);
+    let id = window.state().session().selection().first().expect("the new node is selected").clone();
+    assert_eq!(document(&window).graph.nodes[&id].node, "math/abs");
+    assert_eq!(source(&window, &id, "x").as_deref(), Some("chips.out"));
+}
+
+#[test]
+fn a_node_dropped_on_a_wire_is_put_into_it() {
+    let mut window = window();
+    let at = empty_place(&window);
+    add(&mut window, at, "absolute");
+    let id = window.state().session().selection().first().expect("the new node is selected").clone();
+    let [from, to] =
+        ["Output out of Where the enamel is gone", "Input x of Enamel is left"].map(|it| center(&window, it));
+    let title = window.get_by_label("Node Absolute").rect();
+    let grip = title.left_center() + egui::vec2(title.width() * 0.5, 0.0);
+    drag(&mut window, grip, from + (to - from) * 0.5);
+    assert_eq!(source(&window, &id, "x").as_deref(), Some("chips.out"));
+    assert_eq!(source(&window, "enamel", "x"), Some(format!("{id}.out")));
+}
+
+#[test]
+fn deleting_heals_when_asked() {
+    let mut window = window();
+    let before = text(&window);
+    let at = center(&window, "Node Enamel is left");
+    go(&mut window, at);
+    window.get_by_label("Node Enamel is left").click();
+    window.step();
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::Delete);
+    assert!(!document(&window).graph.nodes.contains_key("enamel"));
+    assert_eq!(source(&window, "base_color", "t").as_deref(), Some("chips.out"));
+    assert_eq!(source(&window, "roughness", "t").as_deref(), Some("chips.out"));
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(text(&window), before);
+    window.state_mut().act(Action::Select(vec!["enamel".into()]));
+    window.step();
+    key(&mut window, egui::Modifiers::NONE, egui::Key::Delete);
+    assert_eq!(source(&window, "base_color", "t"), None);
+}
+
+#[test]
+fn nodes_go_from_one_window_to_another_as_text() {
+    let (mut first, mut second) = (window(), window());
+    let at = empty_place(&first);
+    go(&mut first, at);
+    key(&mut first, egui::Modifiers::COMMAND, egui::Key::A);
+    assert_eq!(first.state().session().selection().len(), 7);
+    first.event(egui::Event::Copy);
+    first.step();
+    let copied = first.output().platform_output.commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    });
+    let copied = copied.expect("something was copied");
+    go(&mut second, at);
+    second.event(egui::Event::Paste(copied));
+    second.step();
+    second.step();
+    // All but the surface, of which there is one already; with the wires among them and names of their own.
+    let document = &document(&second).graph;
+    assert_eq!(document.nodes.len(), 13);
+    assert_eq!(document.incoming(&SocketRef::new("rust_2", "t")), Some(&SocketRef::new("grain_2", "out")));
+    assert_eq!(document.nodes["rust_2"], document.nodes["rust"]);
+    assert_eq!(second.state().session().selection().len(), 6);
+    // What is no document is refused and told.
+    second.event(egui::Event::Paste("a shopping list".into()));
+    second.step();
+    second.step();
+    assert!(second.query_by_label_contains("the clipboard holds no nodes").is_some());
+}
+
+#[test]
+fn a_box_selects_and_what_is_selected_moves_together() {
+    let mut window = window();
+    let [chips, grain] = ["Node Where the enamel is gone", "Node Rust grain"].map(|it| window.get_by_label(it).rect());
+    let from = chips.left_top() - egui::vec2(20.0, 12.0);
+    drag(&mut window, from, grain.right_bottom() - egui::vec2(20.0, 4.0));
+    let selection: Vec<&str> = window.state().session().selection().iter().map(String::as_str).collect();
+    assert_eq!(selection, ["chips", "grain"]);
+    let before = document(&window).graph.layout.clone();
+    let grip = grain.center();
+    drag(&mut window, grip, grip + egui::vec2(-60.0, 73.0));
+    let after = document(&window).graph.layout.clone();
+    let way = |id: &str| [after[id][0] - before[id][0], after[id][1] - before[id][1]];
+    assert_eq!(way("chips"), way("grain"));
+    assert!(way("chips")[0] < -20.0 && way("chips")[1] > 20.0, "{:?}", way("chips"));
+    assert_eq!(way("surface"), [0.0, 0.0]);
+    assert_eq!(window.state().session().steps()[0], Some("Move 2 nodes"));
+    // The arrows move by the grid.
+    key(&mut window, egui::Modifiers::NONE, egui::Key::ArrowRight);
+    assert_eq!(document(&window).graph.layout["chips"][0], before["chips"][0] + way("chips")[0] + 20.0);
+}
+
+#[test]
+fn a_number_is_dragged_on_its_card_in_one_step() {
+    let mut window = window();
+    let at = center(&window, "Value metallic of Surface");
+    drag(&mut window, at, at + egui::vec2(20.0, 0.0));
+    let value = document(&window).graph.value(&SocketRef::new("surface", "metallic")).cloned();
+    let Some(halfvector_graph::value::Value::Number(metallic)) = value else { panic!("{value:?}") };
+    assert!((0.05..0.2).contains(&metallic), "{metallic}");
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(document(&window).graph.value(&SocketRef::new("surface", "metallic")), None);
+    assert!(!window.state().session().is_unsaved());
+}
+
+#[test]
+fn a_number_is_written_on_its_card() {
+    let mut window = window();
+    window.get_by_label("Value metallic of Surface").click();
+    window.run_steps(3);
+    write(&mut window, "0.25");
+    key(&mut window, egui::Modifiers::NONE, egui::Key::Enter);
+    let value = document(&window).graph.value(&SocketRef::new("surface", "metallic"));
+    assert_eq!(value, Some(&halfvector_graph::value::Value::Number(0.25)));
+}
+
+#[test]
+fn undo_all_and_redo_all_give_the_same_documents() {
+    let mut window = window();
+    let first = text(&window);
+    let at = empty_place(&window);
+    add(&mut window, at, "voronoi");
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::D);
+    key(&mut window, egui::Modifiers::NONE, egui::Key::ArrowDown);
+    let [from, to] = ["Output out of Rust grain", "Input metallic of Surface"].map(|it| center(&window, it));
+    drag(&mut window, from, to);
+    window.state_mut().act(Action::Select(vec!["enamel".into(), "rust".into()]));
+    window.step();
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::Delete);
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::A);
+    key(&mut window, egui::Modifiers::NONE, egui::Key::L);
+    let last = text(&window);
+    assert_ne!(first, last);
+    undo_all(&mut window);
+    assert_eq!(text(&window), first);
+    redo_all(&mut window);
+    assert_eq!(text(&window), last);
+}
+
+#[test]
+fn tab_walks_along_the_nodes_and_lets_go_at_the_end() {
+    let mut window = window();
+    window.get_by_label("Graph canvas").focus();
+    window.step();
+    window.remove_cursor();
+    window.step();
+    let mut seen = Vec::new();
+    for _ in 0..7 {
+        key(&mut window, egui::Modifiers::NONE, egui::Key::Tab);
+        seen.extend(window.state().session().selection().iter().cloned());
+    }
+    assert_eq!(seen, ["chips", "grain", "enamel", "rust", "base_color", "roughness", "surface"]);
+    assert!(window.get_by_label("Graph canvas").is_focused());
+    key(&mut window, egui::Modifiers::NONE, egui::Key::Tab);
+    window.step();
+    assert!(!window.get_by_label("Graph canvas").is_focused());
+}
+
+#[test]
+fn a_frame_takes_along_what_lies_in_it() {
+    let mut window = window();
+    let before = text(&window);
+    window.state_mut().act(Action::Select(vec!["chips".into(), "grain".into()]));
+    let at = empty_place(&window);
+    go(&mut window, at);
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::J);
+    assert_eq!(document(&window).graph.frames["frame"].title, "Frame");
+    let layout = document(&window).graph.layout.clone();
+    let grip = center(&window, "Frame Frame");
+    drag(&mut window, grip, grip + egui::vec2(-40.0, 30.0));
+    let moved = &document(&window).graph.layout;
+    let way = |id: &str| [moved[id][0] - layout[id][0], moved[id][1] - layout[id][1]];
+    assert!(way("chips")[0] < -20.0, "{:?}", way("chips"));
+    assert_eq!(way("chips"), way("grain"));
+    assert_eq!(way("surface"), [0.0, 0.0]);
+    // The key deletes the frame alone.
+    key(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
+    window.get_by_label("Frame Frame").click();
+    window.run_steps(2);
+    key(&mut window, egui::Modifiers::NONE, egui::Key::Delete);
+    assert!(document(&window).graph.frames.is_empty());
+    assert_eq!(document(&window).graph.nodes.len(), 7);
+    undo_all(&mut window);
+    assert_eq!(text(&window), before);
+}
