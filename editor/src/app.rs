@@ -238,7 +238,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
         let Behavior { session, panes, actions } = self;
         ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
         match pane {
-            Pane::Canvas => panes.canvas.show(ui, session, actions),
+            Pane::Canvas => panes.canvas.show(ui, session, &mut panes.thumbnails, actions),
             Pane::Viewport => panes.viewport.show(ui, session, &mut panes.thumbnails, actions),
             Pane::Inspector => panes.inspector.show(ui, session, panes.problems.notices(), actions),
             Pane::Code => panes.code.show(ui, session, panes.viewport.stage(), actions),

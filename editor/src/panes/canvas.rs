@@ -33,6 +33,7 @@ use crate::action::Action;
 use crate::palette::{Outcome, Palette};
 use crate::session::Session;
 use crate::theme;
+use crate::thumbnails::Thumbnails;
 use draw::{Brush, Detail};
 use fields::Editing;
 use fit::Loose;
@@ -63,14 +64,23 @@ pub(crate) struct Canvas {
     palette: Palette,
     /// What is done with the node that the palette gives.
     purpose: Purpose,
-    /// Nodes whose unused inputs are shown.
-    unfolded: BTreeSet<NodeId>,
+    /// What is unfolded on cards.
+    unfolded: Unfolded,
     /// Why something was not done, where, and until when that is shown.
     words: Option<(String, Pos2, f64)>,
     /// The frame or comment that was chosen.
     picked: Option<NoteId>,
     keeps_off_grid: bool,
     hides_map: bool,
+}
+
+/// Which nodes show more than usual.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Unfolded {
+    /// Their unused inputs.
+    inputs: BTreeSet<NodeId>,
+    /// A picture of what they give.
+    pictures: BTreeSet<NodeId>,
 }
 
 /// Where a node of the palette goes.
@@ -147,7 +157,13 @@ impl Canvas {
     }
 
     /// Draws the graph.
-    pub(crate) fn show(&mut self, ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut egui::Ui,
+        session: &Session,
+        thumbnails: &mut Thumbnails,
+        actions: &mut Vec<Action>,
+    ) {
         let (graph, library) = (session.graph(), session.library());
         let level = (session.number(), session.path().to_vec());
         if self.level != level {
@@ -211,6 +227,7 @@ impl Canvas {
             takes: takes.as_ref().map(|takes| takes as &dyn Fn(&Card, &sheet::Row) -> bool),
         };
         self.paint(&brush, &sheet, hovered);
+        pictures(ui, &brush, &desk, &sheet, thumbnails);
         self.announce(ui, &mut desk, &sheet);
         self.paint_gesture(ui, &brush, &desk, &sheet, pointer);
         self.paint_map(&brush, &sheet);
@@ -312,6 +329,12 @@ impl Canvas {
             }
             if ui.input(|input| input.has_accesskit_action_request(id, Asked::Click)) {
                 desk.actions.push(Action::Select(vec![card.id.clone()]));
+            }
+            if card.has_picture() {
+                let id = Id::new(("graph toggle", &card.id));
+                let rect = Rect::from_center_size(lens.to_screen(card.toggle()), vec2(14.0, 14.0));
+                let label = || format!("Picture of {}", card.title);
+                tell(id, rect, Role::Button, &label, None, card.picture().is_some());
             }
             for row in card.rows.iter().filter(|row| row.has_socket()) {
                 let side = if row.side == sheet::Side::Output { "Output" } else { "Input" };
@@ -446,6 +469,23 @@ impl Canvas {
             places.into_iter().map(|(i, place)| moved(&sheet.cards[i], corner + place.to_vec2())).collect();
         if !edits.is_empty() {
             desk.make("Arrange nodes", Edit::Many(edits));
+        }
+    }
+}
+
+/// Shows what nodes give, on the cards that are unfolded for it.
+fn pictures(ui: &mut egui::Ui, brush: &Brush<'_>, desk: &Desk<'_>, sheet: &Sheet, thumbnails: &mut Thumbnails) {
+    if brush.detail == Detail::Blocks || desk.session.group().is_some() {
+        return;
+    }
+    let seen = desk.lens.seen();
+    for card in sheet.cards.iter().filter(|card| card.rect().intersects(seen)) {
+        let output = card.rows.iter().find(|row| row.side == sheet::Side::Output);
+        if let (Some(rect), Some(output)) = (card.picture(), output) {
+            let rect = desk.lens.rect_to_screen(rect);
+            let mut ui = ui.new_child(egui::UiBuilder::new().id_salt(("picture", &card.id)).max_rect(rect));
+            ui.set_clip_rect(desk.lens.pane.intersect(ui.clip_rect()));
+            thumbnails.show(&mut ui, desk.session, &card.id, &output.name, rect.width());
         }
     }
 }

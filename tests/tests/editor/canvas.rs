@@ -365,3 +365,21 @@ fn a_frame_takes_along_what_lies_in_it() {
     undo_all(&mut window);
     assert_eq!(text(&window), before);
 }
+
+#[test]
+fn a_card_shows_a_picture_of_what_its_node_gives() {
+    let mut window = window();
+    let before = window.get_by_label("Node Rust grain").rect();
+    assert!(window.query_by_label("out of grain").is_none());
+    window.get_by_label("Picture of Rust grain").click();
+    window.run_steps(3);
+    let picture = window.get_by_label("out of grain").rect();
+    assert!(
+        picture.top() > before.bottom() && before.expand(60.0).x_range().contains(picture.center().x),
+        "{picture:?}"
+    );
+    window.get_by_label("Picture of Rust grain").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("out of grain").is_none());
+    assert!(!window.state().session().is_unsaved());
+}

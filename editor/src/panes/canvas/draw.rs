@@ -153,9 +153,17 @@ impl Brush<'_> {
         let top = CornerRadius { sw: 0, se: 0, ..radius };
         self.painter.rect_filled(header, top, header_color);
         let mark = !card.problems.is_empty();
-        let room = header.width() - (MARGIN * 2.0 + if mark { 18.0 } else { 0.0 }) * zoom;
+        let room = header.width() - (MARGIN * 2.0 + if mark { 36.0 } else { 18.0 }) * zoom;
         let at = pos2(header.left() + MARGIN * zoom, header.center().y);
         self.text(at, Align2::LEFT_CENTER, &card.title, TITLE_SIZE, self.colors.title, room);
+        if card.has_picture() && self.detail == Detail::Full {
+            let center = self.lens.to_screen(card.toggle());
+            let color = self.colors.title.gamma_multiply(if card.picture().is_some() { 0.9 } else { 0.45 });
+            self.painter.circle_stroke(center, 4.6 * zoom, Stroke::new(1.4 * zoom, color));
+            if card.picture().is_some() {
+                self.painter.circle_filled(center, 2.4 * zoom, color);
+            }
+        }
         if let Some((severity, _)) = card.problems.first() {
             self.mark(self.lens.to_screen(card.mark()), *severity);
         }
@@ -312,7 +320,7 @@ impl Card {
     /// Where the mark of a problem is.
     pub(super) fn mark(&self) -> Pos2 {
         let rect = self.rect();
-        pos2(rect.right() - 18.0, rect.top() + HEADER / 2.0)
+        pos2(rect.right() - 36.0, rect.top() + HEADER / 2.0)
     }
 }
 

@@ -154,7 +154,7 @@ impl Canvas {
             Hit::Field(card, row) if matches!(sheet.cards[card].rows[row].field, Field::Number { .. }) => {
                 number_from(&sheet.cards[card], row)
             }
-            Hit::Card(card) | Hit::Field(card, _) | Hit::Fold(card) => {
+            Hit::Card(card) | Hit::Field(card, _) | Hit::Fold(card) | Hit::Toggle(card) => {
                 let id = &sheet.cards[card].id;
                 let mut ids = desk.session.selection().clone();
                 if !ids.contains(id) {
@@ -322,7 +322,7 @@ impl Canvas {
                     self.rename(sheet, &card.id);
                 }
             }
-            Hit::Socket(..) | Hit::Field(..) | Hit::Fold(_) => {}
+            Hit::Socket(..) | Hit::Field(..) | Hit::Fold(_) | Hit::Toggle(_) => {}
         }
     }
 
@@ -339,12 +339,8 @@ impl Canvas {
     fn click(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2, modifiers: egui::Modifiers) {
         let hit = hit::hit(sheet, desk.lens, at);
         match hit {
-            Hit::Fold(card) => {
-                let id = &sheet.cards[card].id;
-                if !self.unfolded.remove(id) {
-                    self.unfolded.insert(id.clone());
-                }
-            }
+            Hit::Fold(card) => switch(&mut self.unfolded.inputs, &sheet.cards[card].id),
+            Hit::Toggle(card) => switch(&mut self.unfolded.pictures, &sheet.cards[card].id),
             Hit::Field(card, row) => self.edit_field(desk, sheet, card, row),
             _ => {}
         }
@@ -438,6 +434,13 @@ impl Canvas {
             }
             Gesture::Idle | Gesture::Pan | Gesture::Note { .. } | Gesture::Number { .. } => {}
         }
+    }
+}
+
+/// Puts an id into a set, or takes it out.
+fn switch(set: &mut BTreeSet<NodeId>, id: &str) {
+    if !set.remove(id) {
+        set.insert(id.to_owned());
     }
 }
 

@@ -24,6 +24,8 @@ pub(super) enum Hit {
     Field(usize, usize),
     /// Where inputs are shown or hidden.
     Fold(usize),
+    /// Where the picture is put on and off.
+    Toggle(usize),
     Wire(usize),
     /// A frame or comment, and what of it.
     Note(usize, Part),
@@ -33,7 +35,9 @@ impl Hit {
     /// The card that is meant, if one is.
     pub(super) fn card(self) -> Option<usize> {
         match self {
-            Hit::Card(card) | Hit::Socket(card, _) | Hit::Field(card, _) | Hit::Fold(card) => Some(card),
+            Hit::Card(card) | Hit::Socket(card, _) | Hit::Field(card, _) | Hit::Fold(card) | Hit::Toggle(card) => {
+                Some(card)
+            }
             Hit::Empty | Hit::Wire(_) | Hit::Note(..) => None,
         }
     }
@@ -117,6 +121,9 @@ fn part(sheet: &Sheet, lens: Lens, point: Pos2, index: usize) -> Hit {
     }
     let card = &sheet.cards[index];
     let at = lens.to_canvas(point);
+    if card.has_picture() && card.toggle().distance(at) < 9.0 {
+        return Hit::Toggle(index);
+    }
     for (j, row) in card.rows.iter().enumerate() {
         let is_level = (at.y - card.rect().top() - row.y).abs() <= super::sheet::ROW / 2.0;
         if is_level && row.side == Side::Fold {

@@ -11,6 +11,7 @@ use halfvector_graph::node_def::{Default as InputDefault, Input, NodeDef};
 use halfvector_graph::resolve::{NodeTypes, resolve_types};
 use halfvector_graph::value::{SocketType, Type, Value};
 
+use super::Unfolded;
 use super::arrange;
 use super::notes::{self, Note};
 use crate::session::Session;
@@ -28,6 +29,8 @@ pub(super) const TITLE_SIZE: f32 = 13.0;
 pub(super) const ROW_SIZE: f32 = 12.0;
 /// Definition of the node that only bends a wire.
 pub(super) const REROUTE: &str = "utility/reroute";
+/// Side of the picture of what a node gives.
+const PICTURE: f32 = 96.0;
 /// Size of the dot that bends a wire.
 pub(super) const REROUTE_SIZE: Vec2 = vec2(28.0, 16.0);
 /// Inputs that a card shows at once; of more only those that are used, and the first of them.
@@ -39,7 +42,7 @@ const INPUTS_FIRST: usize = 8;
 pub(super) struct Sheet {
     document: Arc<Document>,
     group: Option<String>,
-    unfolded: BTreeSet<NodeId>,
+    unfolded: Unfolded,
     pub(super) notes: Vec<Note>,
     pub(super) cards: Vec<Card>,
     index: HashMap<NodeId, usize>,
@@ -67,6 +70,8 @@ pub(super) struct Card {
     pub(super) is_selected: bool,
     /// How costly it is, 0 to 1, when the graph is coloured by it.
     pub(super) heat: Option<f32>,
+    /// Whether a picture of what it gives is shown.
+    is_pictured: bool,
 }
 
 /// A socket, or what a card offers besides.
@@ -127,7 +132,7 @@ pub(super) struct Wire {
 
 impl Sheet {
     /// Lays out the level that is worked on.
-    pub(super) fn new(context: &egui::Context, session: &Session, unfolded: &BTreeSet<NodeId>) -> Sheet {
+    pub(super) fn new(context: &egui::Context, session: &Session, unfolded: &Unfolded) -> Sheet {
         let (document, graph, library) = (session.document(), session.graph(), session.library());
         let types = resolve_types(graph, library);
         let wired: HashSet<&SocketRef> = graph.links.iter().flat_map(|link| [&link.from, &link.to]).collect();
@@ -142,7 +147,7 @@ impl Sheet {
                 Some(types) => {
                     let is_used = |name: &str| is_wired(name) || node.values.contains_key(name) || is_offered(name);
                     let values = &node.values;
-                    rows_of(types, values, is_wired, is_used, unfolded.contains(id))
+                    rows_of(types, values, is_wired, is_used, unfolded.inputs.contains(id))
                 }
                 None => rows_of_unknown(graph, id),
             };
@@ -160,6 +165,7 @@ impl Sheet {
                 problems: Vec::new(),
                 is_selected: false,
                 heat: None,
+                is_pictured: unfolded.pictures.contains(id),
             });
         }
         let index: HashMap<NodeId, usize> = cards.iter().enumerate().map(|(i, card)| (card.id.clone(), i)).collect();
@@ -185,7 +191,7 @@ impl Sheet {
     }
 
     /// Whether this is the layout of the level that is worked on.
-    pub(super) fn is_of(&self, session: &Session, unfolded: &BTreeSet<NodeId>) -> bool {
+    pub(super) fn is_of(&self, session: &Session, unfolded: &Unfolded) -> bool {
         Arc::ptr_eq(&self.document, session.document())
             && self.group.as_deref() == session.group()
             && self.unfolded == *unfolded
@@ -263,6 +269,25 @@ impl Card {
         })
     }
 
+    /// Whether there can be a picture of what it gives.
+    pub(super) fn has_picture(&self) -> bool {
+        let is_seen = |row: &Row| row.side == Side::Output && row.ty != SocketType::Texture;
+        !self.is_reroute() && self.rows.iter().any(is_seen)
+    }
+
+    /// Where the picture of what it gives is, when that is shown.
+    pub(super) fn picture(&self) -> Option<Rect> {
+        let rect = self.rect();
+        let center = pos2(rect.center().x, rect.bottom() - FOOT - PICTURE / 2.0);
+        (self.is_pictured && self.has_picture()).then(|| Rect::from_center_size(center, Vec2::splat(PICTURE)))
+    }
+
+    /// Where the picture is put on and off.
+    pub(super) fn toggle(&self) -> Pos2 {
+        let rect = self.rect();
+        pos2(rect.right() - 18.0, rect.top() + HEADER / 2.0)
+    }
+
     /// Whether it only bends a wire.
     pub(super) fn is_reroute(&self) -> bool {
         self.definition == REROUTE
@@ -281,12 +306,13 @@ impl Card {
             let font = FontId::proportional(size);
             fonts.layout_no_wrap(text.to_owned(), font, egui::Color32::WHITE).size().x
         };
-        let title = width_of(&self.title, TITLE_SIZE) + MARGIN + 30.0;
+        let title = width_of(&self.title, TITLE_SIZE) + MARGIN + 48.0;
         let row = |row: &Row| width_of(&shown(&row.name), ROW_SIZE) + row.field.width() + MARGIN * 2.0 + 8.0;
         let widest = self.rows.iter().map(row).fold(title, f32::max);
         let last = self.rows.last().map_or(HEADER / 2.0, |row| row.y);
+        let foot = if self.is_pictured && self.has_picture() { PICTURE + FOOT } else { 0.0 };
         let bottom = if last <= HEADER / 2.0 { HEADER + FOOT } else { last + ROW / 2.0 + FOOT };
-        vec2((widest / 4.0).ceil().clamp(30.0, 70.0) * 4.0, bottom)
+        vec2((widest / 4.0).ceil().clamp(30.0, 70.0) * 4.0, bottom + foot)
     }
 }
 

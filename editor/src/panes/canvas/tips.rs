@@ -46,6 +46,9 @@ pub(super) fn show(response: &Response, sheet: &Sheet, lens: Lens, hovered: Hit)
         Hit::Fold(_) => {
             response.clone().on_hover_text_at_pointer("Shows or hides the inputs that are not used.");
         }
+        Hit::Toggle(_) => {
+            response.clone().on_hover_text_at_pointer("Shows a picture of what the node gives.");
+        }
         Hit::Empty | Hit::Wire(_) | Hit::Note(..) => {}
     }
 }
