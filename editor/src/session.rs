@@ -33,6 +33,8 @@ pub struct Session {
     problems: Vec<Problem>,
     /// How costly nodes are; empty while the graph is not coloured by it.
     heat: BTreeMap<NodeId, f32>,
+    /// Of the graph that is worked on.
+    library: Library,
 }
 
 /// The material that a new document holds, as the text of its file.
@@ -73,6 +75,7 @@ impl Session {
             selection: BTreeSet::new(),
             heat: BTreeMap::new(),
             problems: check(&document, Library::standard()),
+            library: Library::standard().of(&document),
             document,
         }
     }
@@ -107,9 +110,9 @@ impl Session {
         self.document.graph_of(self.group()).unwrap_or(&self.document.graph)
     }
 
-    /// The nodes that this graph can be made of.
+    /// The nodes that this graph can be made of: the shipped ones, and those that the document brings along.
     pub fn library(&self) -> &Library {
-        Library::standard()
+        &self.library
     }
 
     /// An edit of this graph as an edit of the document.
@@ -235,6 +238,11 @@ impl Session {
         let mut selection = std::mem::take(&mut self.selection);
         selection.retain(|id| self.graph().nodes.contains_key(id));
         self.selection = selection;
+        let library = Library::standard().of(&self.document);
+        self.library = match self.group().and_then(|group| self.document.groups.get(group)) {
+            Some(group) => library.inside(group),
+            None => library,
+        };
     }
 
     /// A document was written to a file, which is this session's from now on. Image paths start at its folder.

@@ -269,12 +269,12 @@ fn glowing(document: &Document, node: &str, output: &str, ty: SocketType) -> Opt
 
 /// A picture of a subject; none when it has problems.
 fn drawn(subject: &Subject, easel: &mut Easel, gpu: &Gpu, studio: &mut Option<Arc<Light>>) -> Option<egui::ColorImage> {
-    let mut camera = Camera::default();
-    camera.vertical_fov = match (subject.is_lit, subject.mesh) {
+    let vertical_fov = match (subject.is_lit, subject.mesh) {
         // The plane fills the picture, the sphere nearly.
         (false, BuiltinMesh::Plane) => 2.0 * 0.2f32.atan().to_degrees(),
         _ => 24.0,
     };
+    let camera = Camera { vertical_fov, ..Camera::default() };
     let stage = Stage {
         mesh: MeshSource::Builtin(subject.mesh),
         environment: if subject.is_lit { EnvironmentSource::Studio } else { EnvironmentSource::None },

@@ -1,6 +1,7 @@
 //! A scene made ready for the GPU: shaders, programs, bind groups and the list of draws in order. It draws nothing.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::sync::Arc;
 
 use halfvector_codegen::reflection::{Binding, Resource, TextureSource};
@@ -65,10 +66,9 @@ pub(crate) fn prepare(gpu: &Gpu, cache: &mut Cache, wanted: &Wanted<'_>) -> Resu
     let mut resources = Resources { gpu, cache, scene, environment, visibility: dfg_visibility(&needs.methods) };
     let mut ready: BTreeMap<usize, Ready> = BTreeMap::new();
     for object in &scene.objects {
-        if !ready.contains_key(&object.material) {
+        if let Entry::Vacant(place) = ready.entry(object.material) {
             let material = &scene.materials[object.material];
-            let of = make_ready(&mut resources, material, needs, fold, target, &mut draws.blocks)?;
-            ready.insert(object.material, of);
+            place.insert(make_ready(&mut resources, material, needs, fold, target, &mut draws.blocks)?);
         }
     }
     for (passes, blended) in [(&passes.solid, false), (&passes.blended, true)] {

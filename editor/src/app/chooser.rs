@@ -6,7 +6,6 @@ use eframe::egui;
 use egui_file_dialog::{FileDialog, Filter};
 use halfvector_graph::document::SocketRef;
 use halfvector_graph::edit::Edit;
-use halfvector_graph::library::Library;
 use halfvector_graph::node_def::Default as SocketDefault;
 use halfvector_graph::value::{ColorSpace, ImageRef, Value};
 
@@ -104,7 +103,7 @@ impl Editor {
         if let Some(Value::Image(image)) = self.session.value(socket) {
             return Value::Image(ImageRef { file, ..image.clone() });
         }
-        let def = self.session.node(&socket.node).and_then(|node| Library::standard().get(&node.node));
+        let def = self.session.node(&socket.node).and_then(|node| self.session.library().get(&node.node));
         let input = def.and_then(|def| def.inputs.iter().find(|input| input.name == socket.socket));
         let color_space = match input.map(|input| &input.default) {
             Some(SocketDefault::Image(color_space)) => *color_space,

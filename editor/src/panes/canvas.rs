@@ -25,9 +25,10 @@ mod wire;
 use std::collections::BTreeSet;
 
 use eframe::egui::{self, Id, Pos2, Rect, Sense, pos2, vec2};
-use halfvector_graph::document::{Graph, Link, NodeId, SocketRef};
+use halfvector_graph::document::{Graph, Link, NodeId, SocketRef, group_of};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::library::Library;
+use halfvector_graph::node_def::NodeDef;
 
 use crate::action::Action;
 use crate::palette::{Outcome, Palette};
@@ -108,11 +109,21 @@ impl Desk<'_> {
     /// Makes edits as one step. Cards that have no place in the document yet get the one where they are seen, so that they
     /// do not jump when others move.
     fn edit(&mut self, sheet: &Sheet, name: impl Into<String>, edits: Vec<Edit>) {
+        let edits = self.settled(sheet, edits);
+        self.make(name, Edit::Many(edits));
+    }
+
+    /// Edits, and before them the places of the cards that have none.
+    fn settled(&self, sheet: &Sheet, edits: Vec<Edit>) -> Vec<Edit> {
         let layout = &self.graph.layout;
         let homeless = sheet.cards.iter().filter(|card| !layout.contains_key(&card.id));
-        let mut all: Vec<Edit> = homeless.map(|card| moved(card, card.place)).collect();
-        all.extend(edits);
-        self.make(name, Edit::Many(all));
+        homeless.map(|card| moved(card, card.place)).chain(edits).collect()
+    }
+
+    /// Makes edits of the level, and one of the document, as one step.
+    fn make_with(&mut self, sheet: &Sheet, name: impl Into<String>, edits: Vec<Edit>, of_document: Edit) {
+        let here = self.session.here(Edit::Many(self.settled(sheet, edits)));
+        self.actions.push(Action::edit(name, Edit::Many(vec![here, of_document])));
     }
 
     /// Makes an edit of the level.
@@ -140,7 +151,7 @@ impl Desk<'_> {
 
     /// Adds what arrives and selects it.
     fn arrive(&mut self, sheet: &Sheet, name: impl Into<String>, arrival: edits::Arrival) {
-        self.edit(sheet, name, arrival.edits);
+        self.make_with(sheet, name, Vec::new(), Edit::Many(arrival.edits));
         self.actions.push(Action::Select(arrival.ids));
     }
 }
@@ -366,7 +377,11 @@ impl Canvas {
             let given = types.get(&link.from.node)?.output(&link.from.socket)?;
             Some((given, types.get(&link.to.node)?.input(&link.to.socket)?))
         });
-        let offers = |def: &halfvector_graph::node_def::NodeDef| match (&purpose.loose, ends) {
+        let path = desk.session.path();
+        // A group cannot hold itself.
+        let is_around = |def: &NodeDef| group_of(&def.id).is_some_and(|id| path.iter().any(|outer| outer == id));
+        let offers = |def: &NodeDef| match (&purpose.loose, ends) {
+            _ if is_around(def) => false,
             (Some(loose), _) => loose.socket_of(def).is_some(),
             (None, Some((given, wanted))) => fit::through(def, given, wanted).is_some(),
             (None, None) => true,
@@ -390,15 +405,15 @@ impl Canvas {
         let Some(def) = desk.library.get(definition) else { return };
         let purpose = std::mem::take(&mut self.purpose);
         let at = if self.keeps_off_grid { purpose.at } else { view::to_grid(purpose.at) };
-        let mut arrival = edits::add(desk.graph, definition, [at.x, at.y]);
+        let mut arrival = edits::add(desk.session, definition, at.into());
         let id = arrival.ids[0].clone();
         if let Some(loose) = &purpose.loose
             && let Some(socket) = loose.socket_of(def)
         {
-            arrival.edits.push(Edit::AddLink { link: loose.link(SocketRef::new(&id, socket)) });
+            arrival.edits.push(desk.session.here(Edit::AddLink { link: loose.link(SocketRef::new(&id, socket)) }));
         }
         if let Some(link) = &purpose.into {
-            arrival.edits.extend(edits::insert(desk.graph, desk.library, &id, definition, link).unwrap_or_default());
+            edits::put_into(desk.session, &mut arrival, link);
         }
         desk.arrive(sheet, format!("Add {}", def.label), arrival);
     }

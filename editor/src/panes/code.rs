@@ -10,7 +10,6 @@ use eframe::egui::{self, Button, ComboBox};
 use halfvector_codegen::target::TARGETS;
 use halfvector_graph::check::node_label;
 use halfvector_graph::document::NodeId;
-use halfvector_graph::library::Library;
 use halfvector_graph::needs::Needs;
 
 use crate::action::{Action, Choose};
@@ -199,7 +198,7 @@ fn dropped(ui: &mut egui::Ui, code: &made::Ready) {
 fn origin_text(session: &Session, origin: Option<&halfvector_codegen::Origin>) -> String {
     match origin {
         Some(halfvector_codegen::Origin::Node(id)) => {
-            format!("{}: click to show the node", node_label(session.graph(), Library::standard(), id))
+            format!("{}: click to show the node", node_label(session.graph(), session.library(), id))
         }
         Some(halfvector_codegen::Origin::Library(file)) => format!("shaders/{file}"),
         Some(halfvector_codegen::Origin::Frame) => "Interface, transforms and lighting".to_owned(),

@@ -60,11 +60,11 @@ impl Cost {
             self.counted = Some(counted);
         }
         let wanted = (session.revision(), needs_of(stage));
-        if std::mem::take(&mut self.is_seen) || self.colors_graph {
-            if let Some(worker) = self.worker.as_ref().filter(|_| self.asked.as_ref() != Some(&wanted)) {
-                worker.submit(Job { document: session.document().clone(), needs: wanted.1.clone() });
-                self.asked = Some(wanted);
-            }
+        if (std::mem::take(&mut self.is_seen) || self.colors_graph)
+            && let Some(worker) = self.worker.as_ref().filter(|_| self.asked.as_ref() != Some(&wanted))
+        {
+            worker.submit(Job { document: session.document().clone(), needs: wanted.1.clone() });
+            self.asked = Some(wanted);
         }
         let Some(Ok(counted)) = self.counted.as_ref().filter(|_| self.colors_graph) else { return BTreeMap::new() };
         let most = counted.nodes.iter().map(|part| weight(part.instructions)).max().unwrap_or(0).max(1);
@@ -140,7 +140,7 @@ fn bars(ui: &mut egui::Ui, session: &Session, counted: &Counted, actions: &mut V
         .iter()
         .map(|part| Bar {
             node: Some(&part.node),
-            label: node_label(session.graph(), Library::standard(), &part.node),
+            label: node_label(session.graph(), session.library(), &part.node),
             instructions: part.instructions,
         })
         .collect();

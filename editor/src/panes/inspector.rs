@@ -18,6 +18,8 @@ mod thumbnail;
 use eframe::egui;
 use halfvector_graph::check::Problem;
 
+use halfvector_graph::edit::Edit;
+
 use crate::action::Action;
 pub(crate) use crate::panes::inspector::row::named_text;
 use crate::panes::inspector::thumbnail::Thumbnails;
@@ -56,11 +58,25 @@ impl Inspector {
                 match (selected.next(), selected.next()) {
                     (None, _) => material::show(ui, session, actions),
                     (Some(id), None) => {
+                        let before = actions.len();
                         node::show(ui, session, id, notices, &mut self.thumbnails, actions);
+                        actions[before..].iter_mut().for_each(|action| at_work(session, action));
                     }
-                    _ => several::show(ui, session, actions),
+                    _ => {
+                        let before = actions.len();
+                        several::show(ui, session, actions);
+                        actions[before..].iter_mut().for_each(|action| at_work(session, action));
+                    }
                 }
             });
         });
+    }
+}
+
+/// An edit of a node is one of the graph that is worked on, which may be the inside of a group.
+fn at_work(session: &Session, action: &mut Action) {
+    if let Action::Edit { edit, .. } = action {
+        let plain = std::mem::replace(edit, Edit::Many(Vec::new()));
+        *edit = session.here(plain);
     }
 }

@@ -383,3 +383,39 @@ fn a_card_shows_a_picture_of_what_its_node_gives() {
     assert!(window.query_by_label("out of grain").is_none());
     assert!(!window.state().session().is_unsaved());
 }
+
+#[test]
+fn nodes_become_a_group_and_its_inside_is_worked_on() {
+    let mut window = window();
+    let before = text(&window);
+    let at = empty_place(&window);
+    go(&mut window, at);
+    window.state_mut().act(Action::Select(vec!["grain".into(), "rust".into()]));
+    window.step();
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::G);
+    let groups: Vec<String> = document(&window).groups.keys().cloned().collect();
+    let [group] = groups.as_slice() else { panic!("{groups:?}") };
+    assert_eq!(document(&window).graph.nodes.len(), 6);
+    assert!(window.state().session().problems().is_empty(), "{:?}", window.state().session().problems());
+
+    // A number of a node inside is one of the inside.
+    window.state_mut().act(Action::Enter(vec![group.clone()]));
+    window.state_mut().act(Action::Select(vec!["grain".into()]));
+    window.run_steps(3);
+    assert!(window.query_by_label("Node Rust grain").is_some(), "the inside is shown");
+    let node = window.state().session().node("grain").expect("the node inside");
+    assert_eq!(node.label.as_deref(), Some("Rust grain"));
+    window.state_mut().act(Action::Enter(Vec::new()));
+    window.step();
+
+    let id = document(&window).graph.nodes.iter().find(|(_, node)| node.node == format!("group/{group}"));
+    let id = id.expect("the group's node").0.clone();
+    window.state_mut().act(Action::Select(vec![id]));
+    window.step();
+    key(&mut window, egui::Modifiers::COMMAND.plus(egui::Modifiers::SHIFT), egui::Key::G);
+    assert_eq!(document(&window).graph.nodes.len(), 7);
+    while window.state().session().steps()[0].is_some() {
+        window.state_mut().act(Action::Undo);
+    }
+    assert_eq!(text(&window), before);
+}

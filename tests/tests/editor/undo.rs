@@ -12,6 +12,7 @@ use proptest::prelude::*;
 
 /// What a test does in one step.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a list of some dozens")]
 enum Step {
     Act(Action),
     Undo,

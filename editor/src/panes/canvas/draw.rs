@@ -7,7 +7,7 @@ use eframe::egui::{
 use halfvector_graph::check::Severity;
 use halfvector_graph::value::SocketType;
 
-use super::sheet::{Card, Field, HEADER, MARGIN, ROW_SIZE, Row, Sheet, Side, TITLE_SIZE, number, shown};
+use super::sheet::{Card, Field, HEADER, MARGIN, ROW_SIZE, Row, Sheet, Side, TITLE_SIZE, number};
 use super::view::{GRID, Lens};
 use super::wire;
 use crate::theme::{self, CanvasColors};
@@ -23,6 +23,9 @@ pub(super) enum Detail {
     Blocks,
 }
 
+/// Whether a socket takes the wire that is drawn.
+pub(super) type Takes<'a> = &'a dyn Fn(&Card, &Row) -> bool;
+
 /// What is drawn with, and what stands out.
 pub(super) struct Brush<'a> {
     pub(super) painter: &'a Painter,
@@ -30,7 +33,7 @@ pub(super) struct Brush<'a> {
     pub(super) colors: CanvasColors,
     pub(super) detail: Detail,
     /// While a wire is drawn: whether a socket takes it.
-    pub(super) takes: Option<&'a dyn Fn(&Card, &Row) -> bool>,
+    pub(super) takes: Option<Takes<'a>>,
 }
 
 impl Detail {
@@ -178,17 +181,16 @@ impl Brush<'_> {
         let is_dim = self.takes.is_some_and(|takes| !takes(card, row));
         let fade = |color: Color32| if is_dim { color.gamma_multiply(0.3) } else { color };
         if self.detail == Detail::Full && row.y > HEADER {
-            let text = shown(&row.name);
             let margin = MARGIN * zoom;
             let field = card.field(row).map(|field| self.lens.rect_to_screen(field));
             let room = field.map_or(rect.right() - margin, |field| field.left() - 4.0) - rect.left() - margin;
             let color = fade(if row.side == Side::Fold { self.colors.weak } else { self.colors.text });
             match row.side {
                 Side::Output => {
-                    self.text(pos2(rect.right() - margin, y), Align2::RIGHT_CENTER, &text, ROW_SIZE, color, room);
+                    self.text(pos2(rect.right() - margin, y), Align2::RIGHT_CENTER, &row.label, ROW_SIZE, color, room);
                 }
                 Side::Input | Side::Fold => {
-                    self.text(pos2(rect.left() + margin, y), Align2::LEFT_CENTER, &text, ROW_SIZE, color, room);
+                    self.text(pos2(rect.left() + margin, y), Align2::LEFT_CENTER, &row.label, ROW_SIZE, color, room);
                 }
             }
             if let Some(field) = field {

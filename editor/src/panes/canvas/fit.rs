@@ -1,11 +1,9 @@
 //! What goes together: whether a link can be made, and in words why not. Types are decided by the graph's own rules.
 
-use halfvector_graph::check::{Problem, check};
-use halfvector_graph::document::{Graph, Link, SocketRef};
-use halfvector_graph::edit::{Edit, apply};
+use halfvector_graph::document::{Link, SocketRef};
 use halfvector_graph::library::Library;
 use halfvector_graph::node_def::NodeDef;
-use halfvector_graph::resolve::resolve_types;
+use halfvector_graph::operation::can_connect;
 use halfvector_graph::value::{SocketType, Type};
 
 use super::sheet::{Card, Row};
@@ -92,65 +90,12 @@ impl Loose {
 
 /// Why a link cannot be made; none when it can.
 pub(super) fn refusal(session: &Session, link: &Link) -> Option<String> {
-    let (graph, library, group) = (session.graph(), session.library(), session.group());
-    if link.from.node == link.to.node {
-        return Some("A node cannot feed itself.".into());
-    }
-    if feeds(graph, &link.to.node, &link.from.node) {
-        return Some("The nodes would feed each other in a ring.".into());
-    }
-    let mut document = (**session.document()).clone();
-    if let Err(error) = apply(&mut document, &session.here(Edit::AddLink { link: link.clone() })) {
-        return Some(error.to_string());
-    }
-    let after = document.graph_of(group)?;
-    let types = resolve_types(after, library);
-    let types_of = |link: &Link| {
-        let given = types.get(&link.from.node)?.output(&link.from.socket)?;
-        Some((given, types.get(&link.to.node)?.input(&link.to.socket)?))
-    };
-    // A generic node may take the link itself and lose another one by it.
-    let into = after.links.iter().filter(|other| other.to.node == link.to.node);
-    let wrong = into.filter(|link| !types_of(link).is_some_and(|(given, wanted)| fits(given, wanted)));
-    let wrong: Vec<&SocketRef> = wrong.map(|link| &link.to).collect();
-    if !wrong.iter().any(|socket| **socket == link.to || !is_told(session.problems(), group, socket)) {
-        return None;
-    }
-    let told = check(&document, Library::standard())
-        .into_iter()
-        .find(|problem| wrong.iter().any(|socket| is_of(problem, group, socket)));
-    Some(told.map_or_else(|| "These do not go together.".into(), |problem| sentence(&problem.message)))
+    let can = can_connect(session.document(), Library::standard(), session.group(), &link.from, &link.to);
+    can.err().map(|why| sentence(&why.0))
 }
 
-/// Whether a problem of a socket is known already.
-fn is_told(known: &[Problem], group: Option<&str>, socket: &SocketRef) -> bool {
-    known.iter().any(|problem| is_of(problem, group, socket))
-}
-
-fn is_of(problem: &Problem, group: Option<&str>, socket: &SocketRef) -> bool {
-    group.is_none()
-        && problem.node.as_deref() == Some(&socket.node)
-        && problem.socket.as_deref() == Some(&socket.socket)
-}
-
-/// Whether a node feeds another one, over however many others.
-fn feeds(graph: &Graph, node: &str, other: &str) -> bool {
-    let mut reached = std::collections::BTreeSet::from([node]);
-    let mut waiting = vec![node];
-    while let Some(node) = waiting.pop() {
-        for link in graph.links.iter().filter(|link| link.from.node == node) {
-            if link.to.node == other {
-                return true;
-            }
-            if reached.insert(&link.to.node) {
-                waiting.push(&link.to.node);
-            }
-        }
-    }
-    false
-}
-
-fn sentence(message: &str) -> String {
+/// A reason as a sentence of its own.
+pub(super) fn sentence(message: &str) -> String {
     let mut letters = message.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).chain(['.']).collect())
 }

@@ -6,6 +6,9 @@ use std::collections::BTreeSet;
 use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Stroke, StrokeKind, Vec2};
 use halfvector_graph::document::{Link, NodeId, SocketRef, group_of};
 use halfvector_graph::edit::Edit;
+use halfvector_graph::library::Library;
+use halfvector_graph::node_def::REROUTE;
+use halfvector_graph::operation::insert_on_link;
 use halfvector_graph::value::Value;
 
 use super::draw::{self, Brush};
@@ -13,7 +16,7 @@ use super::fit::{self, Loose, candidates, refusal};
 use super::guides::{self, Snapped};
 use super::hit::{self, Hit};
 use super::notes::{self, NoteId, Part};
-use super::sheet::{Card, Field, REROUTE, REROUTE_SIZE, Sheet, Side};
+use super::sheet::{Card, Field, REROUTE_SIZE, Sheet, Side};
 use super::view::to_grid;
 use super::{Canvas, Desk, Purpose, edits, moved};
 use crate::action::Action;
@@ -23,6 +26,7 @@ use crate::theme;
 const DROP_REACH: f32 = 22.0;
 
 /// What the pointer is doing.
+#[expect(clippy::large_enum_variant, reason = "there is one for each window")]
 #[derive(Debug, Default)]
 pub(super) enum Gesture {
     #[default]
@@ -240,19 +244,16 @@ impl Canvas {
             Gesture::Idle | Gesture::Pan | Gesture::Box { .. } => {}
             Gesture::Move { ids, into, .. } => {
                 let dragged = sheet.cards.iter().filter(|card| ids.contains(&card.id) && card.shift != Vec2::ZERO);
-                let mut all: Vec<Edit> = dragged.map(|card| moved(card, card.rect().min)).collect();
-                let mut name =
-                    if all.len() == 1 { "Move node".to_owned() } else { format!("Move {} nodes", all.len()) };
-                if let Some(link) = into.map(|i| &sheet.wires[i].link)
-                    && let Some(node) = ids.first()
-                    && let Some(edits) =
-                        edits::insert(desk.graph, desk.library, node, &desk.graph.nodes[node].node, link)
-                {
-                    all.extend(edits);
-                    name = "Insert node into wire".into();
-                }
-                if !all.is_empty() {
-                    desk.edit(sheet, name, all);
+                let all: Vec<Edit> = dragged.map(|card| moved(card, card.rect().min)).collect();
+                let name = if all.len() == 1 { "Move node".to_owned() } else { format!("Move {} nodes", all.len()) };
+                let (document, group) = (desk.session.document(), desk.session.group());
+                let insert = |link: &Link| {
+                    ids.first().and_then(|node| insert_on_link(document, Library::standard(), group, link, node).ok())
+                };
+                match into.and_then(|i| insert(&sheet.wires[i].link)) {
+                    Some(edit) => desk.make_with(sheet, "Insert node into wire", all, edit),
+                    None if all.is_empty() => {}
+                    None => desk.edit(sheet, name, all),
                 }
             }
             Gesture::Note { note, part, way, .. } if way != Vec2::ZERO => {
@@ -329,9 +330,8 @@ impl Canvas {
     /// Puts a reroute into a wire.
     pub(super) fn bend(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, link: &Link, at: Pos2) {
         let at = to_grid(at);
-        let mut arrival = edits::add(desk.graph, REROUTE, [at.x - REROUTE_SIZE.x / 2.0, at.y - REROUTE_SIZE.y / 2.0]);
-        if let Some(edits) = edits::insert(desk.graph, desk.library, &arrival.ids[0], REROUTE, link) {
-            arrival.edits.extend(edits);
+        let mut arrival = edits::add(desk.session, REROUTE, (at - REROUTE_SIZE / 2.0).into());
+        if edits::put_into(desk.session, &mut arrival, link) {
             desk.arrive(sheet, "Add reroute", arrival);
         }
     }

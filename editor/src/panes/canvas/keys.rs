@@ -3,17 +3,20 @@
 use std::collections::BTreeSet;
 
 use eframe::egui::{self, Event, EventFilter, Key, Modifiers, Pos2, Response, vec2};
-use halfvector_graph::document::{NodeId, SocketRef};
+use halfvector_graph::document::{NodeId, SocketRef, group_of};
+use halfvector_graph::edit::Edit;
+use halfvector_graph::library::Library;
+use halfvector_graph::operation::{Refusal, collapse, copy, paste, remove_and_heal, ungroup};
 
-use super::edits::{self, Where};
-use super::fit::Loose;
+use super::edits::Arrival;
+use super::fit::{Loose, sentence};
 use super::sheet::{Sheet, Side};
-use super::view::GRID;
+use super::view::{GRID, to_grid};
 use super::{Canvas, Desk, Purpose, moved};
 use crate::action::Action;
 
 /// How far duplicates lie from their originals.
-const BESIDE: [f32; 2] = [GRID * 2.0, GRID * 2.0];
+const BESIDE: egui::Vec2 = vec2(GRID * 2.0, GRID * 2.0);
 
 impl Canvas {
     /// Does what the keys ask for.
@@ -60,6 +63,12 @@ impl Canvas {
             } else {
                 self.remove(desk, sheet, false);
             }
+        }
+        if pressed(command.plus(shift), Key::G) {
+            self.ungroup(ui, desk, sheet, at);
+        }
+        if pressed(command, Key::G) {
+            self.group(ui, desk, sheet, at);
         }
         if pressed(command, Key::J) {
             self.add_frame(desk, sheet);
@@ -125,16 +134,16 @@ impl Canvas {
         });
         for event in events {
             match event {
-                Event::Copy => self.copy(ui, desk, sheet),
+                Event::Copy => self.copy(ui, desk),
                 Event::Cut => {
-                    self.copy(ui, desk, sheet);
+                    self.copy(ui, desk);
                     self.remove(desk, sheet, false);
                 }
                 Event::Paste(text) => {
-                    let place = desk.lens.to_canvas(at);
-                    match edits::pasted(desk.graph, &text, Where::Around([place.x, place.y])) {
+                    let place = to_grid(desk.lens.to_canvas(at));
+                    match pasted(desk, &text, place) {
                         Ok(arrival) => desk.arrive(sheet, format!("Paste {}", count(arrival.ids.len())), arrival),
-                        Err(why) => self.say(ui, at, why),
+                        Err(why) => self.say(ui, at, sentence(&why.0)),
                     }
                 }
                 _ => {}
@@ -143,16 +152,36 @@ impl Canvas {
     }
 
     /// Puts the selected nodes into the clipboard.
-    pub(super) fn copy(&self, ui: &egui::Ui, desk: &Desk<'_>, sheet: &Sheet) {
-        let nodes = desk.session.selection();
-        if !nodes.is_empty() {
-            ui.ctx().copy_text(edits::copied(desk.session.document(), desk.graph, nodes, &places(sheet)));
+    pub(super) fn copy(&self, ui: &egui::Ui, desk: &Desk<'_>) {
+        if !desk.session.selection().is_empty() {
+            ui.ctx().copy_text(copied(desk));
+        }
+    }
+
+    /// Makes a group of the selected nodes.
+    pub(super) fn group(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
+        let ids: Vec<NodeId> = desk.session.selection().iter().cloned().collect();
+        let session = desk.session;
+        match collapse(session.document(), Library::standard(), session.group(), &ids, "Group") {
+            Ok(edit) => desk.make_with(sheet, format!("Group {}", count(ids.len())), Vec::new(), edit),
+            Err(why) => self.say(ui, at, sentence(&why.0)),
+        }
+    }
+
+    /// Puts the nodes of the selected groups in their places.
+    pub(super) fn ungroup(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
+        let session = desk.session;
+        let is_group = |id: &&NodeId| session.graph().nodes.get(*id).is_some_and(|node| group_of(&node.node).is_some());
+        let Some(id) = session.selection().iter().find(is_group) else { return };
+        match ungroup(session.document(), Library::standard(), session.group(), id) {
+            Ok(edit) => desk.make_with(sheet, "Ungroup", Vec::new(), edit),
+            Err(why) => self.say(ui, at, sentence(&why.0)),
         }
     }
 
     pub(super) fn duplicate(&self, desk: &mut Desk<'_>, sheet: &Sheet) {
-        let text = edits::copied(desk.session.document(), desk.graph, desk.session.selection(), &places(sheet));
-        if let Ok(arrival) = edits::pasted(desk.graph, &text, Where::Shifted(BESIDE)) {
+        let Some(rect) = Sheet::bounds(sheet.cards.iter().filter(|card| card.is_selected)) else { return };
+        if let Ok(arrival) = pasted(desk, &copied(desk), rect.min + BESIDE) {
             desk.arrive(sheet, format!("Duplicate {}", count(arrival.ids.len())), arrival);
         }
     }
@@ -163,7 +192,13 @@ impl Canvas {
             self.remove_note(desk, sheet);
         } else {
             let name = format!("Delete {}{}", count(nodes.len()), if heals { " and heal" } else { "" });
-            desk.edit(sheet, name, edits::remove(desk.graph, desk.library, nodes, heals));
+            let ids: Vec<NodeId> = nodes.iter().cloned().collect();
+            let session = desk.session;
+            let healed = || remove_and_heal(session.document(), Library::standard(), session.group(), &ids).ok();
+            match heals.then(healed).flatten() {
+                Some(edit) => desk.make_with(sheet, name, Vec::new(), edit),
+                None => desk.edit(sheet, name, ids.into_iter().map(|id| Edit::RemoveNode { id }).collect()),
+            }
         }
     }
 
@@ -217,8 +252,17 @@ fn nudge(desk: &mut Desk<'_>, sheet: &Sheet, by: egui::Vec2) {
     }
 }
 
-fn places(sheet: &Sheet) -> std::collections::BTreeMap<NodeId, [f32; 2]> {
-    sheet.cards.iter().map(|card| (card.id.clone(), card.place.into())).collect()
+/// The selected nodes as text.
+fn copied(desk: &Desk<'_>) -> String {
+    let ids: Vec<NodeId> = desk.session.selection().iter().cloned().collect();
+    copy(desk.session.document(), desk.session.group(), &ids)
+}
+
+/// The nodes of a text, the upper left one at a place.
+fn pasted(desk: &Desk<'_>, text: &str, at: Pos2) -> Result<Arrival, Refusal> {
+    let session = desk.session;
+    let (edit, ids) = paste(session.document(), Library::standard(), session.group(), text, at.into())?;
+    Ok(Arrival { edits: vec![edit], ids })
 }
 
 fn count(nodes: usize) -> String {

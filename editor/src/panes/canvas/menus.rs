@@ -1,12 +1,12 @@
 //! The menus of the right mouse button.
 
 use eframe::egui::{self, PointerButton, Pos2, Response};
-use halfvector_graph::document::{Link, NodeId};
+use halfvector_graph::document::{Link, NodeId, group_of};
 use halfvector_graph::edit::Edit;
 
 use super::hit::Hit;
 use super::notes::NoteId;
-use super::sheet::{REROUTE, Sheet};
+use super::sheet::Sheet;
 use super::{Canvas, Desk, Purpose};
 use crate::action::Action;
 
@@ -105,10 +105,10 @@ impl Canvas {
         }
         menu.separator();
         if item(menu, "Copy", "Ctrl+C") {
-            self.copy(ui, desk, sheet);
+            self.copy(ui, desk);
         }
         if item(menu, "Cut", "Ctrl+X") {
-            self.copy(ui, desk, sheet);
+            self.copy(ui, desk);
             self.remove(desk, sheet, false);
         }
         if item(menu, "Duplicate", "Ctrl+D") {
@@ -122,6 +122,19 @@ impl Canvas {
             let edits: Vec<Edit> = theirs.map(|link| Edit::RemoveLink { link: link.clone() }).collect();
             if !edits.is_empty() {
                 desk.edit(sheet, "Disconnect", edits);
+            }
+        }
+        let at = desk.lens.pane.center();
+        if item(menu, "Group", "Ctrl+G") {
+            self.group(ui, desk, sheet, at);
+        }
+        let inside = desk.graph.nodes.get(node).and_then(|node| group_of(&node.node));
+        if let Some(inside) = inside {
+            if item(menu, "Open the group", "Double-click") {
+                desk.enter(inside);
+            }
+            if item(menu, "Ungroup", "Ctrl+Shift+G") {
+                self.ungroup(ui, desk, sheet, at);
             }
         }
         if item(menu, "Put a frame around", "Ctrl+J") {
@@ -154,7 +167,7 @@ impl Canvas {
         if item(menu, "Insert node…", "") {
             self.open_palette(desk, at, Purpose { at: place, loose: None, into: Some(link.clone()) });
         }
-        if desk.library.get(REROUTE).is_some() && item(menu, "Insert reroute", "Double-click") {
+        if item(menu, "Insert reroute", "Double-click") {
             self.bend(desk, sheet, &link, place);
         }
         if item(menu, "Delete wire", "") {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use eframe::egui::{self, FontId, Pos2, Rect, Vec2, pos2, vec2};
 use halfvector_graph::check::{Severity, node_label};
 use halfvector_graph::document::{Document, Graph, Link, NodeId, SocketRef};
-use halfvector_graph::node_def::{Default as InputDefault, Input, NodeDef};
+use halfvector_graph::node_def::{Default as InputDefault, Input, NodeDef, REROUTE};
 use halfvector_graph::resolve::{NodeTypes, resolve_types};
 use halfvector_graph::value::{SocketType, Type, Value};
 
@@ -27,8 +27,6 @@ pub(super) const MARGIN: f32 = 12.0;
 /// Sizes of the title's and the rows' letters.
 pub(super) const TITLE_SIZE: f32 = 13.0;
 pub(super) const ROW_SIZE: f32 = 12.0;
-/// Definition of the node that only bends a wire.
-pub(super) const REROUTE: &str = "utility/reroute";
 /// Side of the picture of what a node gives.
 const PICTURE: f32 = 96.0;
 /// Size of the dot that bends a wire.
@@ -79,6 +77,8 @@ pub(super) struct Card {
 pub(super) struct Row {
     pub(super) side: Side,
     pub(super) name: String,
+    /// The name as people read it.
+    pub(super) label: String,
     /// With `T` replaced.
     pub(super) ty: SocketType,
     pub(super) is_generic: bool,
@@ -170,7 +170,7 @@ impl Sheet {
         }
         let index: HashMap<NodeId, usize> = cards.iter().enumerate().map(|(i, card)| (card.id.clone(), i)).collect();
         context.fonts_mut(|fonts| cards.iter_mut().for_each(|card| card.size = card.measured(fonts)));
-        for problem in session.problems().iter().filter(|_| is_top) {
+        for problem in session.problems().iter().filter(|problem| problem.group.as_deref() == session.group()) {
             if let Some(card) = problem.node.as_ref().and_then(|id| index.get(id)).map(|&i| &mut cards[i]) {
                 let socket = problem.socket.as_ref().map_or_else(String::new, |socket| format!("{socket}: "));
                 card.problems.push((problem.severity, format!("{socket}{}", problem.message)));
@@ -307,7 +307,7 @@ impl Card {
             fonts.layout_no_wrap(text.to_owned(), font, egui::Color32::WHITE).size().x
         };
         let title = width_of(&self.title, TITLE_SIZE) + MARGIN + 48.0;
-        let row = |row: &Row| width_of(&shown(&row.name), ROW_SIZE) + row.field.width() + MARGIN * 2.0 + 8.0;
+        let row = |row: &Row| width_of(&row.label, ROW_SIZE) + row.field.width() + MARGIN * 2.0 + 8.0;
         let widest = self.rows.iter().map(row).fold(title, f32::max);
         let last = self.rows.last().map_or(HEADER / 2.0, |row| row.y);
         let foot = if self.is_pictured && self.has_picture() { PICTURE + FOOT } else { 0.0 };
@@ -375,6 +375,7 @@ fn rows_of(
         let row = Row {
             side: Side::Output,
             name: output.name.clone(),
+            label: output.label.clone().unwrap_or_else(|| shown(&output.name)),
             ty: types.resolved(output.ty),
             is_generic: output.ty == SocketType::Generic,
             y: HEADER / 2.0,
@@ -397,6 +398,7 @@ fn rows_of(
         let row = Row {
             side: Side::Input,
             name: input.name.clone(),
+            label: input.label.clone().unwrap_or_else(|| shown(&input.name)),
             ty,
             is_generic: input.ty == SocketType::Generic,
             y: 0.0,
@@ -416,6 +418,7 @@ fn rows_of(
         let name = if is_unfolded { "show fewer".to_owned() } else { format!("{hidden} more") };
         let row = Row {
             side: Side::Fold,
+            label: name.clone(),
             name,
             ty: SocketType::Generic,
             is_generic: false,
@@ -443,6 +446,7 @@ fn rows_of_unknown(graph: &Graph, id: &str) -> Vec<Row> {
         .map(|(i, (side, name))| Row {
             side,
             name: name.to_owned(),
+            label: shown(name),
             ty: SocketType::Generic,
             is_generic: false,
             y: HEADER + 3.0 + ROW * (i as f32 + 0.5),

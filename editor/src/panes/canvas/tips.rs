@@ -4,7 +4,7 @@ use eframe::egui::{Response, RichText, Ui};
 use halfvector_graph::value::SocketType;
 
 use super::hit::Hit;
-use super::sheet::{Sheet, Side, shown};
+use super::sheet::{Sheet, Side};
 use super::view::Lens;
 use crate::theme;
 
@@ -16,7 +16,7 @@ pub(super) fn show(response: &Response, sheet: &Sheet, lens: Lens, hovered: Hit)
             let row = &sheet.cards[card].rows[row];
             response.clone().on_hover_ui_at_pointer(|ui| {
                 ui.horizontal(|ui| {
-                    ui.strong(shown(&row.name));
+                    ui.strong(&row.label);
                     ui.colored_label(theme::socket_color(row.ty), type_name(row.ty));
                 });
                 words(ui, &row.help);

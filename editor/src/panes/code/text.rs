@@ -56,7 +56,6 @@ pub(super) fn show(
     });
 }
 
-#[expect(clippy::too_many_arguments, reason = "one row, drawn in one place")]
 fn draw(
     ui: &egui::Ui,
     session: &Session,

@@ -5,7 +5,6 @@ use halfvector_graph::check::node_label;
 use halfvector_graph::context::CONTEXTS;
 use halfvector_graph::document::{Link, NodeId, Parameter, SocketRef, is_name};
 use halfvector_graph::edit::Edit;
-use halfvector_graph::library::Library;
 use halfvector_graph::node_def::{Default as SocketDefault, Input, NodeDef};
 use halfvector_graph::value::{SocketType, Type, Value};
 
@@ -101,7 +100,7 @@ fn widget(
 ) {
     if let Some(from) = session.incoming(socket) {
         let text =
-            format!("{} · {}", node_label(session.graph(), Library::standard(), &from.node), in_words(&from.socket));
+            format!("{} · {}", node_label(session.graph(), session.library(), &from.node), in_words(&from.socket));
         let link = egui::Link::new(text);
         if ui.add(link).labelled_by(label).on_hover_text("Show the node that it comes from").clicked() {
             actions.push(Action::Show(from.node.clone()));
@@ -181,11 +180,9 @@ pub(crate) fn menu(
     }
     let is_number = matches!(slot.ty, SocketType::Value(_)) && matches!(slot.input.default, SocketDefault::Value(_));
     match exposed {
-        Some(place) => {
-            if ui.button("Stop exposing").clicked() {
-                actions.push(Action::edit(format!("Stop exposing {name}"), Edit::RemoveParameter { place }));
-                ui.close();
-            }
+        Some(place) if ui.button("Stop exposing").clicked() => {
+            actions.push(Action::edit(format!("Stop exposing {name}"), Edit::RemoveParameter { place }));
+            ui.close();
         }
         None if is_number => {
             let button = ui.button("Expose as parameter");
@@ -196,7 +193,7 @@ pub(crate) fn menu(
                 ui.close();
             }
         }
-        None => {}
+        _ => {}
     }
 }
 

@@ -4,7 +4,6 @@ use eframe::egui::{self, CollapsingHeader, RichText, TextEdit};
 use halfvector_graph::check::{Problem, Severity};
 use halfvector_graph::document::NodeId;
 use halfvector_graph::edit::Edit;
-use halfvector_graph::library::Library;
 use halfvector_graph::node_def::NodeDef;
 use halfvector_graph::resolve::resolve_types;
 use halfvector_graph::value::SocketType;
@@ -27,7 +26,7 @@ pub(crate) fn show(
     actions: &mut Vec<Action>,
 ) {
     let Some(node) = session.node(id) else { return };
-    let Some(def) = Library::standard().get(&node.node) else {
+    let Some(def) = session.library().get(&node.node) else {
         ui.heading(node.label.as_deref().unwrap_or(id));
         ui.label(format!("This version does not know nodes of the kind {}. It is kept as it is.", node.node));
         problems(ui, session, notices, id);
@@ -55,7 +54,7 @@ pub(crate) fn show(
             ui.weak("This node has no inputs.");
         }
         let generic = {
-            let types = resolve_types(session.graph(), Library::standard());
+            let types = resolve_types(session.graph(), session.library());
             types.get(id).and_then(|types| types.generic)
         };
         for input in &def.inputs {

@@ -6,7 +6,6 @@ use eframe::egui;
 use halfvector_graph::check::node_label;
 use halfvector_graph::document::SocketRef;
 use halfvector_graph::edit::Edit;
-use halfvector_graph::library::Library;
 
 use crate::action::Action;
 use crate::session::Session;
@@ -17,7 +16,7 @@ pub(crate) fn show(ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Actio
     ui.heading(format!("{} nodes", selection.len()));
     let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
     for node in selection.iter().filter_map(|id| session.node(id)) {
-        let kind = Library::standard().get(&node.node).map_or(node.node.as_str(), |def| def.label.as_str());
+        let kind = session.library().get(&node.node).map_or(node.node.as_str(), |def| def.label.as_str());
         *kinds.entry(kind).or_default() += 1;
     }
     let kinds: Vec<String> = kinds.into_iter().map(|(kind, count)| format!("{count} {kind}")).collect();
@@ -47,7 +46,7 @@ pub(crate) fn show(ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Actio
     });
     ui.separator();
     for id in selection {
-        let label = node_label(session.graph(), Library::standard(), id);
+        let label = node_label(session.graph(), session.library(), id);
         if ui.link(label).on_hover_text("Select only this one").clicked() {
             actions.push(Action::Select(vec![id.clone()]));
         }
