@@ -43,7 +43,7 @@ pub fn paste(
     text: &str,
     at: [f32; 2],
 ) -> Result<(Edit, Vec<NodeId>), Refusal> {
-    let Ok(copied) = from_json(text) else { return refuse("what was copied are no nodes") };
+    let Ok(copied) = from_json(text) else { return refuse("the clipboard holds no nodes") };
     let Some(graph) = document.graph_of(group) else {
         return refuse("the group is not there any more");
     };
