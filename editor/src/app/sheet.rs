@@ -5,7 +5,24 @@ use eframe::egui;
 use crate::app::keys::{EVERYWHERE, Hint, SHORTCUTS};
 
 /// Groups of keys that panes take themselves.
-const PANES: &[(&str, &[Hint])] = &[("Viewport", VIEWPORT)];
+const PANES: &[(&str, &[Hint])] = &[("Graph", GRAPH), ("Viewport", VIEWPORT)];
+
+const GRAPH: &[Hint] = &[
+    Hint { keys: "Space, Tab", what: "Add a node" },
+    Hint { keys: "Enter", what: "Add a node that the selected one feeds" },
+    Hint { keys: "Drag on the ground", what: "Select with a box" },
+    Hint { keys: "Middle drag, wheel", what: "Move and zoom the view" },
+    Hint { keys: "Home, F, 1", what: "Show all, the selection, life size" },
+    Hint { keys: "Tab, Shift+Tab", what: "Next or previous node, without the pointer on the graph" },
+    Hint { keys: "Arrow keys", what: "Move the selection by the grid" },
+    Hint { keys: "Ctrl+A, Ctrl+D", what: "Select all, duplicate" },
+    Hint { keys: "Delete, Ctrl+Delete", what: "Remove; remove and join what it was between" },
+    Hint { keys: "Ctrl+G, Ctrl+Shift+G", what: "Make a group, take it apart" },
+    Hint { keys: "Double click, Esc", what: "Open a group, leave it" },
+    Hint { keys: "Ctrl+J", what: "Frame the selection" },
+    Hint { keys: "L", what: "Arrange the nodes" },
+    Hint { keys: "F2", what: "Rename the node" },
+];
 
 const VIEWPORT: &[Hint] = &[
     Hint { keys: "Drag", what: "Turn" },
