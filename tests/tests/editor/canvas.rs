@@ -380,6 +380,7 @@ fn a_card_shows_a_picture_of_what_its_node_gives() {
     };
     assert_eq!(pictures.iter().filter(|picture| below(picture)).count(), 1, "{pictures:?}");
     window.get_by_label("Picture of Rust grain").click();
+    window.run_steps(3);
     window.state_mut().act(Action::Select(Vec::new()));
     window.run_steps(3);
     assert!(window.query_by_label("out of grain").is_none());
