@@ -44,14 +44,33 @@ fn f0_of_sheet(f0: f32, weight: f32) -> f32 {
     return f0 + weight * (f0 * (1.0 - f0) / (1.0 + f0));
 }
 
+/// Factor on transmission_eval that brings back what the microfacets beyond the first block of the light that comes through
+/// a solid body's surface: 1 / (1 - loss), loss = alpha (0.317 (1 - 1/eta) + q (0.361 - 0.335/eta + q (1.405/eta - 0.456)))
+/// / (1 - 0.067 alpha), q = 1 - n.v: our own fit to quadrature for eta from 1 up.
+fn transmission_compensation(n_dot_v: f32, p: Transmission) -> f32 {
+    let inv_eta = saturate(1.0 / max(p.eta, 1.0));
+    let q = 1.0 - saturate(n_dot_v);
+    let slope = 0.317 * (1.0 - inv_eta) + q * (0.361 - 0.335 * inv_eta + q * (1.405 * inv_eta - 0.456));
+    return 1.0 / (1.0 - clamp(p.alpha * slope / (1.0 - 0.067 * p.alpha), 0.0, 0.85));
+}
+
 /// Thin-walled: BTDF times |n.l| for the unit direction `l` from the surface to a light behind it: a reflection whose light
-/// is mirrored at the surface, color (1 - F) D V |n.l|; both faces with all bounces between them reflect 2 f / (1 + f).
+/// is mirrored at the surface, color (1 - F) D V |n.l|, F of both faces, Schlick's from f0_of_sheet as in the reflection, so
+/// that a smooth sheet keeps all light.
 fn transmission_thin_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
     let h = half_from_light(frame, l - 2.0 * dot(frame.normal, l) * frame.normal);
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
     let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
-    let f = f_dielectric(max(p.eta, 1.0 / p.eta), h.l_dot_h);
-    return finite_or_zero(p.color * ((1.0 - f) / (1.0 + f) * (v * h.n_dot_l * d)));
+    let f = f_schlick(vec3f(f0_of_sheet(f0_from_ior(p.eta), 1.0)), vec3f(1.0), h.l_dot_h);
+    return finite_or_zero(p.color * (1.0 - f) * (v * h.n_dot_l * d));
+}
+
+/// Factor on transmission_thin_eval that brings back what single scattering loses: with it a white sheet of reflectance f0
+/// at normal incidence keeps all light, (1 - (f0 a + b) (1 + f0 (1/E - 1))) / ((1 - f0) a), E = a + b of the pair `dfg`.
+fn transmission_thin_compensation(f0: f32, dfg: vec2f) -> f32 {
+    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
+    let reflected = (f0 * dfg.x + dfg.y) * (1.0 + f0 * gain);
+    return clamp((1.0 - reflected) / max((1.0 - f0) * dfg.x, 1e-4), 0.0, 10.0);
 }
 
 /// The direction in which an environment is looked up for solid transmission: v refracted by the smooth surface, Snell's

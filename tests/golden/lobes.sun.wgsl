@@ -66,6 +66,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
     let diffuse = Diffuse(vec3f(0.7, 0.3, 0.2) * (1.0 - 0.4) * coupling_colored(vec3f(0.040000003) + film_shift, vec3f(1.0) + film_shift, dfg), 0.5);
     let transmission = Transmission(vec3f(0.7, 0.3, 0.2) * 0.4 * film_through, 1.5, alpha_from_perceptual_roughness(max(0.5, PUNCTUAL_ROUGHNESS_FLOOR)));
+    let transmission_gain = transmission_compensation(frame.n_dot_v, transmission);
     let coat = Coat(0.8, vec3f(1.0, 0.9, 0.8), 0.040000003, alpha_from_perceptual_roughness(max(0.1, PUNCTUAL_ROUGHNESS_FLOOR)));
     let coat_dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.1);
     let under_coat = coat_base(coat, frame.n_dot_v, coat_dfg);
@@ -76,7 +77,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let directional_light_film = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, half_from_light(frame, directional_light.dir).l_dot_h);
     var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * under_layers * directional_light.illuminance;
     radiance += anisotropic_eval(frame, directional_light.dir, Anisotropic(directional_light_film, directional_light_film, tangent, alphas.x, alphas.y)) * compensation * under_layers * directional_light.illuminance;
-    radiance += transmission_eval(frame, directional_light.dir, transmission) * under_layers * directional_light.illuminance;
+    radiance += transmission_eval(frame, directional_light.dir, transmission) * transmission_gain * under_layers * directional_light.illuminance;
     radiance += coat_eval(frame, directional_light.dir, coat) * under_sheen * directional_light.illuminance;
     radiance += sheen_eval(frame, directional_light.dir, sheen) * directional_light.illuminance;
     return vec4f(radiance, 1.0);
@@ -383,8 +384,8 @@ fn diffuse_eval(frame: Frame, l: vec3f, p: Diffuse) -> vec3f {
 // Smallest perceptual roughness of the fit of the albedo.
 const SHEEN_ROUGHNESS_FLOOR: f32 = 0.05;
 
-// What the fit of the albedo may be too low by, as a factor.
-const SHEEN_MARGIN: f32 = 1.03;
+// What the fit of the albedo may be too low by, as a factor, where the albedo is near 1.
+const SHEEN_MARGIN: f32 = 1.06;
 
 /// Parameters of the sheen.
 struct Sheen {
@@ -395,18 +396,21 @@ struct Sheen {
 }
 
 /// Directional albedo of the white lobe before it is held at 1: our own fit to quadrature in the perceptual roughness r,
-/// E = (0.3848 + 0.0543 r + 0.1748 r^2) / r exp(-(1.0701 + 1.0386 / r - 0.7959 r) mu^0.89).
+/// E = (0.347 + 0.1492 r + 0.1148 r^2) / r exp(-mu (b - mu (c - mu d))), b = 0.7769 + 1.4284 / r, c = 0.9992 + 1.1096 / r,
+/// d = 0.2518 + 0.9523 / r + 0.1776 / r^2.
 fn sheen_albedo(n_dot_w: f32, perceptual_roughness: f32) -> f32 {
     let r = clamp(perceptual_roughness, SHEEN_ROUGHNESS_FLOOR, 1.0);
     let inv_r = 1.0 / r;
-    let mu = clamp(n_dot_w, 1e-7, 1.0);
-    let at_grazing = (0.3848 + r * (0.0543 + r * 0.1748)) * inv_r;
-    let falloff = 1.0701 + 1.0386 * inv_r - 0.7959 * r;
+    let mu = saturate(n_dot_w);
+    let at_grazing = (0.347 + r * (0.1492 + r * 0.1148)) * inv_r;
+    let b = 0.7769 + 1.4284 * inv_r;
+    let c = 0.9992 + 1.1096 * inv_r;
+    let d = 0.2518 + inv_r * (0.9523 + 0.1776 * inv_r);
     // log2(e) = 1.4426950408889634
-    return at_grazing * exp2(-1.4426950408889634 * falloff * exp2(0.89 * log2(mu)));
+    return at_grazing * exp2(-1.4426950408889634 * mu * (b - mu * (c - mu * d)));
 }
 
-/// BRDF times n.l for the unit direction `l` to a light, color D V n.l / max(1, 1.03 E(v), 1.03 E(l)) in 1/sr; 0 where the
+/// BRDF times n.l for the unit direction `l` to a light, color D V n.l / max(1, 1.06 E(v), 1.06 E(l)) in 1/sr; 0 where the
 /// light is behind the surface.
 fn sheen_eval(frame: Frame, l: vec3f, p: Sheen) -> vec3f {
     let h = half_from_light(frame, l);
@@ -502,6 +506,16 @@ fn transmission_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
     let f = f_dielectric(p.eta, v_dot_h);
     let part = (1.0 - f) * d * g * v_dot_h * -l_dot_h / max(root * root, JACOBIAN_FLOOR);
     return finite_or_zero(p.color * select(0.0, part, v_dot_h > 0.0 && l_dot_h < 0.0 && n_dot_l > 0.0));
+}
+
+/// Factor on transmission_eval that brings back what the microfacets beyond the first block of the light that comes through
+/// a solid body's surface: 1 / (1 - loss), loss = alpha (0.317 (1 - 1/eta) + q (0.361 - 0.335/eta + q (1.405/eta - 0.456)))
+/// / (1 - 0.067 alpha), q = 1 - n.v: our own fit to quadrature for eta from 1 up.
+fn transmission_compensation(n_dot_v: f32, p: Transmission) -> f32 {
+    let inv_eta = saturate(1.0 / max(p.eta, 1.0));
+    let q = 1.0 - saturate(n_dot_v);
+    let slope = 0.317 * (1.0 - inv_eta) + q * (0.361 - 0.335 * inv_eta + q * (1.405 * inv_eta - 0.456));
+    return 1.0 / (1.0 - clamp(p.alpha * slope / (1.0 - 0.067 * p.alpha), 0.0, 0.85));
 }
 
 // ---- brdf/multiscatter.wgsl

@@ -57,9 +57,10 @@ fn fs_main(in: Varyings, @builtin(front_facing) front_facing: bool) -> @location
     let specular = Specular(vec3f(0.07692309), vec3f(1.0), alpha_from_perceptual_roughness(max(0.2, PUNCTUAL_ROUGHNESS_FLOOR)));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.2);
     let transmission = Transmission(vec3f(0.8, 0.9, 1.0) * 1.0, 1.5, alpha_from_perceptual_roughness(max(0.2, PUNCTUAL_ROUGHNESS_FLOOR)));
+    let transmission_gain = transmission_thin_compensation(0.07692309, dfg);
     let directional_light = directional_light_sample(lights.directional, in.world_position);
     var radiance = specular_eval(frame, directional_light.dir, specular) * directional_light.illuminance;
-    radiance += transmission_thin_eval(frame, directional_light.dir, transmission) * directional_light.illuminance;
+    radiance += transmission_thin_eval(frame, directional_light.dir, transmission) * transmission_gain * directional_light.illuminance;
     return vec4f(radiance, 1.0);
 }
 
@@ -126,31 +127,19 @@ fn half_from_light(frame: Frame, dir: vec3f) -> Half {
 // Largest index of refraction; its square must not overflow.
 const ETA_CEILING: f32 = 1e9;
 
-// Smallest sum of cosines divided by: 0 / 0 at eta = 1, cos = 0. Its square is still a normal f32.
-const COSINE_SUM_FLOOR: f32 = 1e-18;
-
 /// Schlick 1994, An Inexpensive BRDF Model for Physically-based Rendering:
 /// F = f0 + (f90 - f0) (1 - l.h)^5.
 fn f_schlick(f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
     return f0 + (f90 - f0) * pow5(clamp(1.0 - l_dot_h, 0.0, 1.0));
 }
 
-/// Fresnel's equations, unpolarised light, real index `eta` = inside over outside, cosine on the outside:
-/// g = sqrt(eta^2 - 1 + c^2),  r_s = (c - g)/(c + g),  r_p = (eta^2 c - g)/(eta^2 c + g),  F = (r_s^2 + r_p^2)/2.
-/// Born and Wolf 1999, Principles of Optics, section 1.5.
+/// Reflectance at normal incidence of a dielectric in air: ((ior - 1)/(ior + 1))^2.
 ///
-/// Both differences are written with e = (eta - 1)(eta + 1) as a factor, which has no cancellation at eta near 1:
-/// g - c = e/(g + c),  eta^2 c - g = e (c (g + c) - 1)/(g + c).  Total internal reflection (g^2 < 0) is 1.
-fn f_dielectric(eta: f32, cos_theta: f32) -> f32 {
-    let c = clamp(cos_theta, 0.0, 1.0);
-    let n = min(eta, ETA_CEILING);
-    let e = (n - 1.0) * (n + 1.0);
-    let g2 = e + c * c;
-    let g = sqrt(max(g2, 0.0));
-    let sum = max(g + c, COSINE_SUM_FLOOR);
-    let r_s = e / (sum * sum);
-    let r_p = r_s * sum * (c * sum - 1.0) / max(n * n * c + g, COSINE_SUM_FLOOR);
-    return select(0.5 * (r_s * r_s + r_p * r_p), 1.0, g2 < 0.0);
+/// KHR_materials_ior writes 0 for an infinite index: 0, and all that is no index (below 0, NaN), gives 1.
+fn f0_from_ior(ior: f32) -> f32 {
+    let n = select(0.0, min(ior, ETA_CEILING), ior > 0.0);
+    let s = (n - 1.0) / (n + 1.0);
+    return s * s;
 }
 
 // ---- brdf/ggx.wgsl
@@ -231,14 +220,29 @@ struct Transmission {
     alpha: f32,
 }
 
+/// f0 of a surface of which `weight` is a sheet with two faces: all bounces between them together reflect 2 f / (1 + f),
+/// and the rest, (1 - f) / (1 + f), passes.
+fn f0_of_sheet(f0: f32, weight: f32) -> f32 {
+    return f0 + weight * (f0 * (1.0 - f0) / (1.0 + f0));
+}
+
 /// Thin-walled: BTDF times |n.l| for the unit direction `l` from the surface to a light behind it: a reflection whose light
-/// is mirrored at the surface, color (1 - F) D V |n.l|; both faces with all bounces between them reflect 2 f / (1 + f).
+/// is mirrored at the surface, color (1 - F) D V |n.l|, F of both faces, Schlick's from f0_of_sheet as in the reflection, so
+/// that a smooth sheet keeps all light.
 fn transmission_thin_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
     let h = half_from_light(frame, l - 2.0 * dot(frame.normal, l) * frame.normal);
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
     let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
-    let f = f_dielectric(max(p.eta, 1.0 / p.eta), h.l_dot_h);
-    return finite_or_zero(p.color * ((1.0 - f) / (1.0 + f) * (v * h.n_dot_l * d)));
+    let f = f_schlick(vec3f(f0_of_sheet(f0_from_ior(p.eta), 1.0)), vec3f(1.0), h.l_dot_h);
+    return finite_or_zero(p.color * (1.0 - f) * (v * h.n_dot_l * d));
+}
+
+/// Factor on transmission_thin_eval that brings back what single scattering loses: with it a white sheet of reflectance f0
+/// at normal incidence keeps all light, (1 - (f0 a + b) (1 + f0 (1/E - 1))) / ((1 - f0) a), E = a + b of the pair `dfg`.
+fn transmission_thin_compensation(f0: f32, dfg: vec2f) -> f32 {
+    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
+    let reflected = (f0 * dfg.x + dfg.y) * (1.0 + f0 * gain);
+    return clamp((1.0 - reflected) / max((1.0 - f0) * dfg.x, 1e-4), 0.0, 10.0);
 }
 
 // ---- entry/transform.wgsl

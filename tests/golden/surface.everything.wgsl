@@ -105,6 +105,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
     let diffuse = Diffuse(diffuse_albedo * (1.0 - parameters.transmission_weight) * coupling_colored(vec3f(dielectric_f0_2) + dielectric_shift, vec3f(parameters.specular) + dielectric_shift, dfg), parameters.perceptual_roughness);
     let transmission = Transmission(diffuse_albedo * parameters.transmission_weight * film_through, parameters.ior, alpha_from_perceptual_roughness(max(parameters.perceptual_roughness, PUNCTUAL_ROUGHNESS_FLOOR)));
+    let transmission_gain = transmission_compensation(frame.n_dot_v, transmission);
     let coat = Coat(parameters.coat_weight, parameters.coat_color, coat_f0, alpha_from_perceptual_roughness(max(parameters.coat_roughness, PUNCTUAL_ROUGHNESS_FLOOR)));
     let coat_dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, parameters.coat_roughness);
     let under_coat = coat_base(coat, frame.n_dot_v, coat_dfg);
@@ -117,7 +118,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         let light_film = thin_film_fresnel(f0, vec3f(f90), film, half_from_light(frame, light.dir).l_dot_h);
         radiance += diffuse_eval(frame, light.dir, diffuse) * under_layers * light.illuminance;
         radiance += anisotropic_eval(frame, light.dir, Anisotropic(light_film, light_film, tangent, alphas.x, alphas.y)) * compensation * under_layers * light.illuminance;
-        radiance += transmission_eval(frame, light.dir, transmission) * under_layers * light.illuminance;
+        radiance += transmission_eval(frame, light.dir, transmission) * transmission_gain * under_layers * light.illuminance;
         radiance += coat_eval(frame, light.dir, coat) * under_sheen * light.illuminance;
         radiance += sheen_eval(frame, light.dir, sheen) * light.illuminance;
     }
@@ -125,7 +126,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let point_light_film = thin_film_fresnel(f0, vec3f(f90), film, half_from_light(frame, point_light.dir).l_dot_h);
     radiance += diffuse_eval(frame, point_light.dir, diffuse) * under_layers * point_light.illuminance;
     radiance += anisotropic_eval(frame, point_light.dir, Anisotropic(point_light_film, point_light_film, tangent, alphas.x, alphas.y)) * compensation * under_layers * point_light.illuminance;
-    radiance += transmission_eval(frame, point_light.dir, transmission) * under_layers * point_light.illuminance;
+    radiance += transmission_eval(frame, point_light.dir, transmission) * transmission_gain * under_layers * point_light.illuminance;
     radiance += coat_eval(frame, point_light.dir, coat) * under_sheen * point_light.illuminance;
     radiance += sheen_eval(frame, point_light.dir, sheen) * point_light.illuminance;
     for (var i = 0u; i < 3u; i++) {
@@ -133,7 +134,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         let light_film = thin_film_fresnel(f0, vec3f(f90), film, half_from_light(frame, light.dir).l_dot_h);
         radiance += diffuse_eval(frame, light.dir, diffuse) * under_layers * light.illuminance;
         radiance += anisotropic_eval(frame, light.dir, Anisotropic(light_film, light_film, tangent, alphas.x, alphas.y)) * compensation * under_layers * light.illuminance;
-        radiance += transmission_eval(frame, light.dir, transmission) * under_layers * light.illuminance;
+        radiance += transmission_eval(frame, light.dir, transmission) * transmission_gain * under_layers * light.illuminance;
         radiance += coat_eval(frame, light.dir, coat) * under_sheen * light.illuminance;
         radiance += sheen_eval(frame, light.dir, sheen) * light.illuminance;
     }
@@ -528,8 +529,11 @@ fn diffuse_environment(p: Diffuse, irradiance_over_pi: vec3f) -> vec3f {
 // Smallest perceptual roughness of the fit of the albedo.
 const SHEEN_ROUGHNESS_FLOOR: f32 = 0.05;
 
-// What the fit of the albedo may be too low by, as a factor.
-const SHEEN_MARGIN: f32 = 1.03;
+// What the fit of the albedo may be too low by, as a factor, where the albedo is near 1.
+const SHEEN_MARGIN: f32 = 1.06;
+
+// 1 / 1.06: what the lobe reflects where the fit would have it reflect all.
+const SHEEN_ALBEDO_CEILING: f32 = 0.94339622641509433;
 
 /// Parameters of the sheen.
 struct Sheen {
@@ -540,18 +544,21 @@ struct Sheen {
 }
 
 /// Directional albedo of the white lobe before it is held at 1: our own fit to quadrature in the perceptual roughness r,
-/// E = (0.3848 + 0.0543 r + 0.1748 r^2) / r exp(-(1.0701 + 1.0386 / r - 0.7959 r) mu^0.89).
+/// E = (0.347 + 0.1492 r + 0.1148 r^2) / r exp(-mu (b - mu (c - mu d))), b = 0.7769 + 1.4284 / r, c = 0.9992 + 1.1096 / r,
+/// d = 0.2518 + 0.9523 / r + 0.1776 / r^2.
 fn sheen_albedo(n_dot_w: f32, perceptual_roughness: f32) -> f32 {
     let r = clamp(perceptual_roughness, SHEEN_ROUGHNESS_FLOOR, 1.0);
     let inv_r = 1.0 / r;
-    let mu = clamp(n_dot_w, 1e-7, 1.0);
-    let at_grazing = (0.3848 + r * (0.0543 + r * 0.1748)) * inv_r;
-    let falloff = 1.0701 + 1.0386 * inv_r - 0.7959 * r;
+    let mu = saturate(n_dot_w);
+    let at_grazing = (0.347 + r * (0.1492 + r * 0.1148)) * inv_r;
+    let b = 0.7769 + 1.4284 * inv_r;
+    let c = 0.9992 + 1.1096 * inv_r;
+    let d = 0.2518 + inv_r * (0.9523 + 0.1776 * inv_r);
     // log2(e) = 1.4426950408889634
-    return at_grazing * exp2(-1.4426950408889634 * falloff * exp2(0.89 * log2(mu)));
+    return at_grazing * exp2(-1.4426950408889634 * mu * (b - mu * (c - mu * d)));
 }
 
-/// BRDF times n.l for the unit direction `l` to a light, color D V n.l / max(1, 1.03 E(v), 1.03 E(l)) in 1/sr; 0 where the
+/// BRDF times n.l for the unit direction `l` to a light, color D V n.l / max(1, 1.06 E(v), 1.06 E(l)) in 1/sr; 0 where the
 /// light is behind the surface.
 fn sheen_eval(frame: Frame, l: vec3f, p: Sheen) -> vec3f {
     let h = half_from_light(frame, l);
@@ -562,10 +569,11 @@ fn sheen_eval(frame: Frame, l: vec3f, p: Sheen) -> vec3f {
     return finite_or_zero(p.color * (v * h.n_dot_l * d / max(most, 1.0)));
 }
 
-/// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1) times the radiance filtered by the
-/// lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
+/// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1/1.06) times the radiance filtered by
+/// the lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
 fn sheen_environment(p: Sheen, n_dot_v: f32, prefiltered_radiance: vec3f) -> vec3f {
-    return finite_or_zero(p.color * min(sheen_albedo(n_dot_v, p.perceptual_roughness), 1.0) * prefiltered_radiance);
+    let albedo = min(sheen_albedo(n_dot_v, p.perceptual_roughness), SHEEN_ALBEDO_CEILING);
+    return finite_or_zero(p.color * albedo * prefiltered_radiance);
 }
 
 /// What the base keeps of its own light below the sheen: 1 - max(color) min(E(v), 1). Estevez and Kulla 2017, albedo
@@ -653,6 +661,16 @@ fn transmission_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
     let f = f_dielectric(p.eta, v_dot_h);
     let part = (1.0 - f) * d * g * v_dot_h * -l_dot_h / max(root * root, JACOBIAN_FLOOR);
     return finite_or_zero(p.color * select(0.0, part, v_dot_h > 0.0 && l_dot_h < 0.0 && n_dot_l > 0.0));
+}
+
+/// Factor on transmission_eval that brings back what the microfacets beyond the first block of the light that comes through
+/// a solid body's surface: 1 / (1 - loss), loss = alpha (0.317 (1 - 1/eta) + q (0.361 - 0.335/eta + q (1.405/eta - 0.456)))
+/// / (1 - 0.067 alpha), q = 1 - n.v: our own fit to quadrature for eta from 1 up.
+fn transmission_compensation(n_dot_v: f32, p: Transmission) -> f32 {
+    let inv_eta = saturate(1.0 / max(p.eta, 1.0));
+    let q = 1.0 - saturate(n_dot_v);
+    let slope = 0.317 * (1.0 - inv_eta) + q * (0.361 - 0.335 * inv_eta + q * (1.405 * inv_eta - 0.456));
+    return 1.0 / (1.0 - clamp(p.alpha * slope / (1.0 - 0.067 * p.alpha), 0.0, 0.85));
 }
 
 /// The direction in which an environment is looked up for solid transmission: v refracted by the smooth surface, Snell's

@@ -325,6 +325,9 @@ fn diffuse_environment(p: Diffuse, irradiance_over_pi: vec3f) -> vec3f {
 // Smallest perceptual roughness of the fit of the albedo.
 const SHEEN_ROUGHNESS_FLOOR: f32 = 0.05;
 
+// 1 / 1.06: what the lobe reflects where the fit would have it reflect all.
+const SHEEN_ALBEDO_CEILING: f32 = 0.94339622641509433;
+
 /// Parameters of the sheen.
 struct Sheen {
     /// Colour times weight, linear Rec. 709, in [0, 1].
@@ -334,21 +337,25 @@ struct Sheen {
 }
 
 /// Directional albedo of the white lobe before it is held at 1: our own fit to quadrature in the perceptual roughness r,
-/// E = (0.3848 + 0.0543 r + 0.1748 r^2) / r exp(-(1.0701 + 1.0386 / r - 0.7959 r) mu^0.89).
+/// E = (0.347 + 0.1492 r + 0.1148 r^2) / r exp(-mu (b - mu (c - mu d))), b = 0.7769 + 1.4284 / r, c = 0.9992 + 1.1096 / r,
+/// d = 0.2518 + 0.9523 / r + 0.1776 / r^2.
 fn sheen_albedo(n_dot_w: f32, perceptual_roughness: f32) -> f32 {
     let r = clamp(perceptual_roughness, SHEEN_ROUGHNESS_FLOOR, 1.0);
     let inv_r = 1.0 / r;
-    let mu = clamp(n_dot_w, 1e-7, 1.0);
-    let at_grazing = (0.3848 + r * (0.0543 + r * 0.1748)) * inv_r;
-    let falloff = 1.0701 + 1.0386 * inv_r - 0.7959 * r;
+    let mu = saturate(n_dot_w);
+    let at_grazing = (0.347 + r * (0.1492 + r * 0.1148)) * inv_r;
+    let b = 0.7769 + 1.4284 * inv_r;
+    let c = 0.9992 + 1.1096 * inv_r;
+    let d = 0.2518 + inv_r * (0.9523 + 0.1776 * inv_r);
     // log2(e) = 1.4426950408889634
-    return at_grazing * exp2(-1.4426950408889634 * falloff * exp2(0.89 * log2(mu)));
+    return at_grazing * exp2(-1.4426950408889634 * mu * (b - mu * (c - mu * d)));
 }
 
-/// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1) times the radiance filtered by the
-/// lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
+/// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1/1.06) times the radiance filtered by
+/// the lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
 fn sheen_environment(p: Sheen, n_dot_v: f32, prefiltered_radiance: vec3f) -> vec3f {
-    return finite_or_zero(p.color * min(sheen_albedo(n_dot_v, p.perceptual_roughness), 1.0) * prefiltered_radiance);
+    let albedo = min(sheen_albedo(n_dot_v, p.perceptual_roughness), SHEEN_ALBEDO_CEILING);
+    return finite_or_zero(p.color * albedo * prefiltered_radiance);
 }
 
 /// What the base keeps of its own light below the sheen: 1 - max(color) min(E(v), 1). Estevez and Kulla 2017, albedo

@@ -56,6 +56,7 @@ const FRAME: &[&str] = &[
     "geometric_normal",
     "horizon",
     "transmission",
+    "transmission_gain",
     "transmitted",
     "coat",
     "coat_frame",

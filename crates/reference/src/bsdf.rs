@@ -14,7 +14,7 @@ use halfvector_brdf::lobe_sampling::{
     transmission_sample,
 };
 use halfvector_brdf::lobe_sheen::{Sheen, sheen_base, sheen_eval};
-use halfvector_brdf::lobe_transmission::{Transmission, transmission_eval};
+use halfvector_brdf::lobe_transmission::{Transmission, transmission_compensation, transmission_eval};
 use halfvector_brdf::math::finite_or_zero;
 use halfvector_brdf::metallic_roughness::{diffuse_color, f0_from_metallic};
 use halfvector_brdf::vector::{add, cross, dot, mul, scale};
@@ -208,7 +208,8 @@ impl<'m> Bsdf<'m> {
             }
         } else if let Some(lobe) = self.transmission {
             // What enters a body is compressed by eta^2, and leaves it again.
-            base = scale(transmission_eval(frame, l, lobe), lobe.eta * lobe.eta);
+            let gain = if self.model.compensates() { transmission_compensation(frame.n_dot_v, lobe) } else { 1.0 };
+            base = scale(transmission_eval(frame, l, lobe), gain * lobe.eta * lobe.eta);
         }
         let mut sum = mul(base, scale(self.under_coat, self.under_sheen));
         if let Some(coat) = self.coat {

@@ -14,8 +14,9 @@ use halfvector_brdf::lobe_thin_film::{
     ThinFilm, thin_film_cosine, thin_film_fresnel, thin_film_shift, thin_film_through,
 };
 use halfvector_brdf::lobe_transmission::{
-    Transmission, TransmissionLookup, f0_of_sheet, transmission_direction, transmission_environment, transmission_eval,
-    transmission_lookup, transmission_thin_eval,
+    Transmission, TransmissionLookup, f0_of_sheet, transmission_compensation, transmission_direction,
+    transmission_environment, transmission_eval, transmission_lookup, transmission_thin_compensation,
+    transmission_thin_eval,
 };
 use halfvector_brdf::{
     anisotropic, beckmann, coupling, dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter, sheen,
@@ -234,11 +235,13 @@ pub(crate) const TWINS: &[Twin] = &[
     twin!("brdf/lobe_thin_film.wgsl" "thin_film_shift", [Reflectances(0.9), Range(-0.5, 1.5), Range(0.0, 1000.0), Range(1.0, 3.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film_shift(v(x, 0), v(x, 3), film(x, 6), x[9])),
     twin!("brdf/lobe_thin_film.wgsl" "thin_film_through", [Color(-1.0, 1.0), Reflectances(0.9), Range(0.3, 1.0)], 256.0, 1.0, DOUBLE, |x| thin_film_through(v(x, 0), v(x, 3), v(x, 6), x[9])),
     twin!("brdf/lobe_transmission.wgsl" "f0_of_sheet", [Range(0.0, 1.0), Range(0.0, 1.0)], 8.0, 0.0, DOUBLE, |x| [f0_of_sheet(x[0], x[1])]),
+    twin!("brdf/lobe_transmission.wgsl" "transmission_compensation", [Cosine, Color(0.0, 1.0), Range(0.4, 2.5), Alpha], 64.0, 1.0, DOUBLE, |x| [transmission_compensation(x[0], transmitted(x, 1))]),
     twin!("brdf/lobe_transmission.wgsl" "transmission_direction", [Frame, Range(0.4, 2.5)], 4096.0, 1.0, DOUBLE, |x| transmission_direction(frame(x), x[7])),
     twin!("brdf/lobe_transmission.wgsl" "transmission_environment", [Color(0.0, 1.0), Range(0.4, 2.5), Alpha, Range(0.0, 0.2), Color(0.0, 1e4), Pair(0.0, 0.5)], 8.0, 1.0, DOUBLE, |x| transmission_environment(transmitted(x, 0), x[5], v(x, 6), v(x, 9))),
     // Half vectors of refraction are short where v and -l are near each other: their rounding is that much larger.
     twin!("brdf/lobe_transmission.wgsl" "transmission_eval", [Frame, BackOfLast, Color(0.0, 1.0), Range(1.3, 2.0), Range(0.2, 1.0)], 1024.0, 1.0, DOUBLE, |x| transmission_eval(frame(x), v(x, 7), transmitted(x, 10))),
     twin!("brdf/lobe_transmission.wgsl" "transmission_lookup", [Frame, Range(0.4, 2.5), Range(0.01, 1.0)], 65536.0, 1.0, DOUBLE, |x| looked_up(transmission_lookup(frame(x), x[7], x[8]))),
+    twin!("brdf/lobe_transmission.wgsl" "transmission_thin_compensation", [Range(0.0, 0.5), Pair(0.1, 0.5)], 64.0, 1.0, DOUBLE, |x| [transmission_thin_compensation(x[0], v(x, 1))]),
     twin!("brdf/lobe_transmission.wgsl" "transmission_thin_eval", [Frame, BackOfLast, Color(0.0, 1.0), Range(1.1, 2.5), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| transmission_thin_eval(frame(x), v(x, 7), transmitted(x, 10))),
     twin!("brdf/metallic_roughness.wgsl" "diffuse_color", [Color(0.0, 1.0), Range(0.0, 1.0)], 2.0, 0.0, DOUBLE, |x| metallic_roughness::diffuse_color(v(x, 0), x[3])),
     twin!("brdf/metallic_roughness.wgsl" "f0_from_metallic", [Color(0.0, 1.0), Range(0.0, 1.0), Range(0.0, 1.0)], 4.0, 0.0, DOUBLE, |x| metallic_roughness::f0_from_metallic(v(x, 0), x[3], x[4])),

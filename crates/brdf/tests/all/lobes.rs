@@ -3,6 +3,7 @@
 use halfvector_brdf::albedo::directional_albedo_ggx;
 use halfvector_brdf::coupling::{coupling_light, coupling_single};
 use halfvector_brdf::frame::{Frame, frame_from_normal};
+use halfvector_brdf::fresnel::f0_from_ior;
 use halfvector_brdf::lobe_coat::{Coat, coat_base, coat_environment, coat_eval};
 use halfvector_brdf::lobe_multiscatter::{multiscatter_environment, multiscatter_eval, multiscatter_from_dfg};
 use halfvector_brdf::lobe_sampling::{
@@ -10,7 +11,8 @@ use halfvector_brdf::lobe_sampling::{
 };
 use halfvector_brdf::lobe_specular::{Specular, specular_eval};
 use halfvector_brdf::lobe_transmission::{
-    Transmission, transmission_direction, transmission_environment, transmission_eval, transmission_thin_eval,
+    Transmission, f0_of_sheet, transmission_compensation, transmission_direction, transmission_environment,
+    transmission_eval, transmission_thin_compensation, transmission_thin_eval,
 };
 use halfvector_brdf::vector::{dot, scale};
 use proptest::prelude::*;
@@ -150,6 +152,16 @@ fn rough_glass_keeps_energy() {
                 (through, thin) = (through / count, thin / count);
                 println!("eta {eta:.3}, alpha {alpha}, n.v {n_dot_v}: solid {through:.4}, thin {thin:.4}");
                 assert!(through <= 1.0 && thin <= 1.0);
+                let dfg = directional_albedo_ggx(n_dot_v, alpha.sqrt());
+                // Both factors bring all of it back, of a sheet to the error of the quadrature.
+                let sheet = f0_of_sheet(f0_from_ior(eta), 1.0);
+                let gain = 1.0 / (dfg[0] + dfg[1]) - 1.0;
+                let reflected = |f0: f64| (f0 * dfg[0] + dfg[1]) * (1.0 + f0 * gain);
+                let whole = reflected(sheet) + thin * transmission_thin_compensation(sheet, dfg);
+                assert!((whole - 1.0).abs() < 5e-3, "eta {eta}, alpha {alpha}, n.v {n_dot_v}: {whole} of a sheet");
+                let whole = reflected(f0_from_ior(eta)) + through * transmission_compensation(n_dot_v, p);
+                println!("  with its compensation and reflection: solid {whole:.4}");
+                assert!(eta < 1.0 || (whole - 1.0).abs() < 0.06, "alpha {alpha}, n.v {n_dot_v}: {whole}");
                 if eta > 1.0 && alpha < 0.1 && n_dot_v > 0.5 {
                     assert!(through > 0.93, "{through}");
                 }

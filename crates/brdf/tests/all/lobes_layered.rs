@@ -92,7 +92,7 @@ fn sheen_reflects_no_more_than_arrives() {
     println!(
         "sheen: the fit is off by {worst:.4}, E reaches {published:.2} as published; with the base at most {most:.4}"
     );
-    assert!(worst < 0.03 && published > 3.0);
+    assert!(worst < 0.05 && published > 3.0);
 }
 
 #[test]

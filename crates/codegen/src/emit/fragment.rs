@@ -175,6 +175,15 @@ impl Shading<'_, '_, '_> {
             let film = if plan.thin_film { " * film_through" } else { "" };
             let (ior, alpha) = (self.root("ior", "1.5"), self.alpha(&roughness)?);
             self.line(&format!("let transmission = {lobe}({color} * {weight}{film}, {ior}, {alpha});"));
+            if self.transmission_gains() {
+                let gain = if plan.thin_walled {
+                    let f0 = self.root("dielectric_f0", "0.0");
+                    format!("{}({f0}, dfg)", self.writer.library("transmission_thin_compensation")?)
+                } else {
+                    format!("{}(frame.n_dot_v, transmission)", self.writer.library("transmission_compensation")?)
+                };
+                self.line(&format!("let transmission_gain = {gain};"));
+            }
         }
         self.layers()
     }
@@ -415,6 +424,12 @@ impl Shading<'_, '_, '_> {
         Ok(format!("{lobe}({light}_film, {light}_film, {widths})"))
     }
 
+    /// Whether what single scattering loses of the light that comes through is brought back: an environment's lookup keeps
+    /// it anyway.
+    fn transmission_gains(&self) -> bool {
+        !self.parts.plan.lights.is_empty() && !self.parts.needs.methods.is("compensation", "none")
+    }
+
     /// What one light adds by each lobe.
     fn light_terms(&mut self, light: &str) -> Result<Vec<String>, CodegenError> {
         let plan = self.parts.plan;
@@ -443,7 +458,8 @@ impl Shading<'_, '_, '_> {
         if plan.transmission {
             let eval = if plan.thin_walled { "transmission_thin_eval" } else { "transmission_eval" };
             let lobe = self.writer.library(eval)?;
-            terms.push(format!("{lobe}(frame, {light}.dir, transmission){base} * {light}.illuminance"));
+            let gain = if self.transmission_gains() { " * transmission_gain" } else { "" };
+            terms.push(format!("{lobe}(frame, {light}.dir, transmission){gain}{base} * {light}.illuminance"));
         }
         if plan.coat {
             let (lobe, above) = (self.writer.library("coat_eval")?, self.over_coat);
