@@ -3,10 +3,12 @@
 mod canvas;
 mod code;
 mod files;
+mod hands;
 mod inspector;
 mod library;
 mod opening;
 mod palette;
+mod story;
 mod undo;
 mod viewport;
 

@@ -12,6 +12,7 @@ mod live;
 mod methods;
 mod nodes;
 mod normal_tangent;
+mod normal_tangent_texels;
 mod raster;
 mod relief;
 mod support;

@@ -86,6 +86,8 @@ const BLOCKS: [usize; 3] = [2, 4, 6];
 
 /// A map of texels cannot say how a normal turns between two of them: where the relief's turns by an angle within a texel,
 /// the map is right to half of it. The foot of each relief turns by 35 degrees within 1.5 texels, and by 33 within 4.4.
+/// And at the very centres of its texels, where nothing is filtered, this map is as far as 3.95 degrees off the relief
+/// (`normal_tangent_texels`).
 fn differences(normals: &[Option<Vec3>]) -> Differences {
     let at = |x: usize, y: usize| normals[y * SIZE + x].unwrap_or_else(|| panic!("nothing at {x} {y}"));
     let mut d = Differences::default();

@@ -8,6 +8,8 @@ mod bake;
 mod compare;
 #[path = "cli/reference.rs"]
 mod reference;
+#[path = "cli/window.rs"]
+mod window;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

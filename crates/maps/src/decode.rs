@@ -8,7 +8,7 @@
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use image::error::{ImageError, LimitErrorKind};
+use image::error::ImageError;
 use image::{ColorType, ImageDecoder, ImageFormat, ImageReader};
 use rayon::prelude::*;
 
@@ -69,6 +69,12 @@ pub enum DecodeError {
         height: u32,
         /// The limit that it breaks, in words.
         limit: String,
+    },
+    /// The decoder found, before its own count could be made here, that it needs more memory than the limits allow.
+    #[error("{format} image: reading it needs more memory than the limit; make it smaller or raise the limit")]
+    Memory {
+        /// The format's name.
+        format: &'static str,
     },
     /// The bytes end before the image does.
     #[error("{format} image: the file ends before the image does; copy or download it again")]
@@ -354,12 +360,7 @@ fn finite(x: f32) -> f32 {
 
 fn explained(error: ImageError, format: &'static str) -> DecodeError {
     match error {
-        ImageError::Limits(limit) => match limit.kind() {
-            LimitErrorKind::InsufficientMemory => {
-                DecodeError::Unsupported { format, what: "an image that needs more memory than the limit".to_owned() }
-            }
-            _ => DecodeError::Unsupported { format, what: "an image larger than the limit".to_owned() },
-        },
+        ImageError::Limits(_) => DecodeError::Memory { format },
         ImageError::Unsupported(what) => DecodeError::Unsupported { format, what: what.to_string() },
         ImageError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
             DecodeError::Truncated { format }

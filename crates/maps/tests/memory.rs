@@ -81,6 +81,13 @@ fn claims() {
     png[16..24].copy_from_slice(&[0, 0, 255, 255, 0, 0, 255, 255]);
     let crc = crc32(&png[12..29]);
     png[29..33].copy_from_slice(&crc.to_be_bytes());
+    // So large that the decoder itself will not even count its bytes.
+    let mut largest = png.clone();
+    largest[16..24].copy_from_slice(&[127, 255, 255, 255, 127, 255, 255, 255]);
+    let crc = crc32(&largest[12..29]);
+    largest[29..33].copy_from_slice(&crc.to_be_bytes());
+    let (result, peak) = peak_of(|| decode(&largest, Limits::default()));
+    assert!(matches!(result, Err(DecodeError::Memory { format: "PNG" })) && peak < OVERHEAD, "{peak}: {result:?}");
     let mut tga = written(&one, ImageFormat::Tga);
     tga[12..16].fill(255);
     let mut bmp = written(&one, ImageFormat::Bmp);

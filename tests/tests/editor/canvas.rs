@@ -1,101 +1,16 @@
 //! The graph by mouse and keys: what a person does there is in the document, and undo takes it back to the byte.
 
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use halfvector_editor::{Action, Editor, Options, egui};
-use halfvector_graph::document::{Document, SocketRef};
-use halfvector_graph::file::to_json;
+use halfvector_editor::{Action, Options, egui};
+use halfvector_graph::document::SocketRef;
 
+use super::hands::*;
 use super::open;
-
-type Window = Harness<'static, Editor>;
 
 fn window() -> Window {
     let mut window = open(Options::default());
     window.run_steps(3);
     window
-}
-
-fn document(window: &Window) -> &Document {
-    window.state().session().document()
-}
-
-fn text(window: &Window) -> String {
-    to_json(document(window))
-}
-
-fn center(window: &Window, label: &str) -> egui::Pos2 {
-    window.get_by_label(label).rect().center()
-}
-
-/// An empty place of the canvas: left of all nodes, above the middle.
-fn empty_place(window: &Window) -> egui::Pos2 {
-    let graph = window.get_by_label("Graph canvas").rect();
-    graph.left_bottom() + egui::vec2(40.0, -40.0)
-}
-
-fn press(window: &mut Window, at: egui::Pos2, pressed: bool, modifiers: egui::Modifiers) {
-    let button = egui::PointerButton::Primary;
-    window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
-    window.step();
-}
-
-fn go(window: &mut Window, at: egui::Pos2) {
-    window.hover_at(at);
-    window.step();
-}
-
-/// Presses at a point, goes to another one in steps and stays there with the button down.
-fn hold(window: &mut Window, from: egui::Pos2, to: egui::Pos2) {
-    go(window, from);
-    press(window, from, true, egui::Modifiers::NONE);
-    for i in 1..=5 {
-        go(window, from + (to - from) * (i as f32 / 5.0));
-    }
-}
-
-fn drag(window: &mut Window, from: egui::Pos2, to: egui::Pos2) {
-    hold(window, from, to);
-    press(window, to, false, egui::Modifiers::NONE);
-    window.run_steps(2);
-}
-
-fn key(window: &mut Window, modifiers: egui::Modifiers, key: egui::Key) {
-    window.key_press_modifiers(modifiers, key);
-    window.step();
-    window.step();
-}
-
-fn write(window: &mut Window, words: &str) {
-    window.event(egui::Event::Text(words.to_owned()));
-    window.step();
-    window.step();
-}
-
-/// Adds a node with the keys alone, the pointer at a place.
-fn add(window: &mut Window, at: egui::Pos2, words: &str) {
-    go(window, at);
-    key(window, egui::Modifiers::NONE, egui::Key::Space);
-    write(window, words);
-    key(window, egui::Modifiers::NONE, egui::Key::Enter);
-}
-
-fn undo_all(window: &mut Window) {
-    while window.state().session().steps()[0].is_some() {
-        window.state_mut().act(Action::Undo);
-    }
-    window.step();
-}
-
-fn redo_all(window: &mut Window) {
-    while window.state().session().steps()[1].is_some() {
-        window.state_mut().act(Action::Redo);
-    }
-    window.step();
-}
-
-fn source(window: &Window, node: &str, input: &str) -> Option<String> {
-    document(window).graph.incoming(&SocketRef::new(node, input)).map(SocketRef::to_string)
 }
 
 #[test]

@@ -192,7 +192,7 @@ fn explained(error: TiffError) -> DecodeError {
             DecodeError::Truncated { format: NAME }
         }
         TiffError::UnsupportedError(what) => unsupported(&what.to_string()),
-        TiffError::LimitsExceeded => unsupported("an image that needs more memory than the limit"),
+        TiffError::LimitsExceeded => DecodeError::Memory { format: NAME },
         other => DecodeError::Damaged { format: NAME, reason: other.to_string() },
     }
 }

@@ -1,0 +1,91 @@
+//! What a person's hands do: pointer and keys, and what they find by its label.
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use halfvector_editor::{Action, Editor, egui};
+use halfvector_graph::document::{Document, SocketRef};
+use halfvector_graph::file::to_json;
+
+pub(super) type Window = Harness<'static, Editor>;
+
+pub(super) fn document(window: &Window) -> &Document {
+    window.state().session().document()
+}
+
+pub(super) fn text(window: &Window) -> String {
+    to_json(document(window))
+}
+
+pub(super) fn center(window: &Window, label: &str) -> egui::Pos2 {
+    window.get_by_label(label).rect().center()
+}
+
+/// An empty place of the canvas: left of all nodes, above the middle.
+pub(super) fn empty_place(window: &Window) -> egui::Pos2 {
+    let graph = window.get_by_label("Graph canvas").rect();
+    graph.left_bottom() + egui::vec2(40.0, -40.0)
+}
+
+pub(super) fn press(window: &mut Window, at: egui::Pos2, pressed: bool, modifiers: egui::Modifiers) {
+    let button = egui::PointerButton::Primary;
+    window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+    window.step();
+}
+
+pub(super) fn go(window: &mut Window, at: egui::Pos2) {
+    window.hover_at(at);
+    window.step();
+}
+
+/// Presses at a point, goes to another one in steps and stays there with the button down.
+pub(super) fn hold(window: &mut Window, from: egui::Pos2, to: egui::Pos2) {
+    go(window, from);
+    press(window, from, true, egui::Modifiers::NONE);
+    for i in 1..=5 {
+        go(window, from + (to - from) * (i as f32 / 5.0));
+    }
+}
+
+pub(super) fn drag(window: &mut Window, from: egui::Pos2, to: egui::Pos2) {
+    hold(window, from, to);
+    press(window, to, false, egui::Modifiers::NONE);
+    window.run_steps(2);
+}
+
+pub(super) fn key(window: &mut Window, modifiers: egui::Modifiers, key: egui::Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.step();
+    window.step();
+}
+
+pub(super) fn write(window: &mut Window, words: &str) {
+    window.event(egui::Event::Text(words.to_owned()));
+    window.step();
+    window.step();
+}
+
+/// Adds a node with the keys alone, the pointer at a place.
+pub(super) fn add(window: &mut Window, at: egui::Pos2, words: &str) {
+    go(window, at);
+    key(window, egui::Modifiers::NONE, egui::Key::Space);
+    write(window, words);
+    key(window, egui::Modifiers::NONE, egui::Key::Enter);
+}
+
+pub(super) fn undo_all(window: &mut Window) {
+    while window.state().session().steps()[0].is_some() {
+        window.state_mut().act(Action::Undo);
+    }
+    window.step();
+}
+
+pub(super) fn redo_all(window: &mut Window) {
+    while window.state().session().steps()[1].is_some() {
+        window.state_mut().act(Action::Redo);
+    }
+    window.step();
+}
+
+pub(super) fn source(window: &Window, node: &str, input: &str) -> Option<String> {
+    document(window).graph.incoming(&SocketRef::new(node, input)).map(SocketRef::to_string)
+}
