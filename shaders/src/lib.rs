@@ -52,6 +52,7 @@ pub const FILES: &[File] = files![
     "color.wgsl",
     "entry/background.wgsl",
     "entry/bake.wgsl",
+    "entry/display.wgsl",
     "entry/transform.wgsl",
     "ibl/environment.wgsl",
     "ibl/occlusion.wgsl",
@@ -231,7 +232,17 @@ pub const FILES: &[File] = files![
 /// The shader of the environment behind the objects: `entry/background.wgsl` with the files that it calls. Its entry points
 /// are `vs_background` and `fs_background`.
 pub fn background() -> String {
-    let parts = ["color.wgsl", "ibl/environment.wgsl", "entry/background.wgsl"];
+    joined(&["color.wgsl", "ibl/environment.wgsl", "entry/background.wgsl"])
+}
+
+/// The shader that turns a picture of radiance into a display's colours: `entry/display.wgsl` with the files that it calls
+/// and the function `tone_map_NAME` (`-` read as `_`). Its entry points are `vs_display` and `fs_display`.
+pub fn display(tone_map: &str) -> String {
+    let call = format!("tone_map_{}(straight", tone_map.replace('-', "_"));
+    joined(&["color.wgsl", "tone_map.wgsl", "entry/display.wgsl"]).replace("tone_map_none(straight", &call)
+}
+
+fn joined(parts: &[&str]) -> String {
     let texts: Vec<&str> = FILES.iter().filter(|file| parts.contains(&file.path)).map(|file| file.source).collect();
     texts.join("\n")
 }

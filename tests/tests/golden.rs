@@ -1,5 +1,5 @@
 //! Documents and the WGSL that comes of them, committed: a difference fails. `HALFVECTOR_BLESS=1` writes the new text, to
-//! be read in the diff. Each golden passes naga and, where they are installed, glslangValidator and spirv-val
+//! be read in the diff. Each golden passes naga and, where they are installed, glslangValidator, spirv-val and spirv-cross
 //! (`HALFVECTOR_REQUIRE_JUDGES=1`: they must be), and holds nothing that it does not need.
 
 use std::path::PathBuf;
@@ -176,6 +176,8 @@ fn goldens_pass_the_judges() {
     for (judge, suffixes, arguments) in [
         ("glslangValidator", [".vert", ".frag"], &[][..]),
         ("spirv-val", [".vert.spv", ".frag.spv"], &["--target-env", "vulkan1.1"][..]),
+        // Reads every instruction again to write GLSL of its own.
+        ("spirv-cross", [".vert.spv", ".frag.spv"], &["--vulkan-semantics", "--version", "450"][..]),
     ] {
         if Command::new(judge).arg("--version").output().is_err() {
             assert!(!required("HALFVECTOR_REQUIRE_JUDGES"), "{judge} is not installed");

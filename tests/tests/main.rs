@@ -1,7 +1,8 @@
 //! Tests across crates, in one binary. Each module is one kind of test; data that is not there is skipped with a printed
-//! line, a missing GPU too, unless `HALFVECTOR_REQUIRE_GPU=1`.
+//! line, a missing GPU or browser too, unless `HALFVECTOR_REQUIRE_GPU=1` and `HALFVECTOR_REQUIRE_BROWSER=1`.
 
 mod bake;
+mod browser;
 mod device;
 mod docs;
 mod editor;
@@ -18,3 +19,4 @@ mod relief;
 mod support;
 mod tidy;
 mod twins;
+mod web;

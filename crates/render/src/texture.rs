@@ -1,19 +1,14 @@
 //! Pictures, cubes and tables on the GPU: formats, mip levels and samplers. It computes no texel but what a format asks for.
 
-use std::borrow::Cow;
-
-use half::f16;
 use halfvector_codegen::reflection::SamplerSource;
 use halfvector_graph::value::{ColorSpace, Filter, Wrap};
 use halfvector_ibl::{Cube, DfgTable};
 use halfvector_maps::{Image, Texels};
+use halfvector_scene::texels::{TexelFormat, cube_bytes, dfg_bytes, image_bytes};
 use halfvector_scene::texture_levels;
 
 use crate::device::Gpu;
 use crate::error::RenderError;
-
-/// The largest finite half float: what is brighter becomes this bright.
-const F16_MAX: f32 = 65504.0;
 
 /// A picture with all its mip levels. `name` stands in the error when it is too large.
 pub(crate) fn image(
@@ -34,15 +29,15 @@ pub(crate) fn image(
         });
     }
     let levels = texture_levels(image, color_space);
-    let format = match (image.texels(), levels.color_space) {
-        (Texels::U8(_), ColorSpace::Srgb) => wgpu::TextureFormat::Rgba8UnormSrgb,
-        (Texels::U8(_), ColorSpace::Linear) => wgpu::TextureFormat::Rgba8Unorm,
-        _ if gpu.filters_f32() => wgpu::TextureFormat::Rgba32Float,
-        _ => wgpu::TextureFormat::Rgba16Float,
+    let (format, texels) = match (image.texels(), levels.color_space) {
+        (Texels::U8(_), ColorSpace::Srgb) => (wgpu::TextureFormat::Rgba8UnormSrgb, TexelFormat::Unorm8),
+        (Texels::U8(_), ColorSpace::Linear) => (wgpu::TextureFormat::Rgba8Unorm, TexelFormat::Unorm8),
+        _ if gpu.filters_f32() => (wgpu::TextureFormat::Rgba32Float, TexelFormat::Float32),
+        _ => (wgpu::TextureFormat::Rgba16Float, TexelFormat::Float16),
     };
     let texture = new_texture(gpu, format, [width, height, 1], 1 + levels.smaller.len() as u32);
     for (level, image) in levels.all().enumerate() {
-        let bytes = texel_bytes(image, format);
+        let bytes = image_bytes(image, texels);
         write(gpu, &texture, level as u32, [image.width(), image.height(), 1], &bytes);
     }
     Ok(texture.create_view(&Default::default()))
@@ -54,8 +49,7 @@ pub(crate) fn cube(gpu: &Gpu, levels: &[Cube], slopes: &[Vec<f32>]) -> wgpu::Tex
     let size = levels.first().map_or(1, |cube| cube.size as u32);
     let texture = new_texture(gpu, wgpu::TextureFormat::Rgba16Float, [size, size, 6], levels.len().max(1) as u32);
     for (level, cube) in levels.iter().enumerate() {
-        let slope = |texel: usize| slopes.get(level).map_or(1.0, |slopes| slopes[texel]);
-        let bytes = f16_bytes(cube.texels.iter().enumerate().map(|(i, &[r, g, b])| [r, g, b, slope(i)]));
+        let bytes = cube_bytes(cube, slopes.get(level).map(Vec::as_slice));
         write(gpu, &texture, level as u32, [cube.size as u32, cube.size as u32, 6], &bytes);
     }
     texture.create_view(&wgpu::TextureViewDescriptor {
@@ -64,13 +58,11 @@ pub(crate) fn cube(gpu: &Gpu, levels: &[Cube], slopes: &[Vec<f32>]) -> wgpu::Tex
     })
 }
 
-/// The (scale, bias) table: x = n.v, y = perceptual roughness. 16-bit floats, whose rounding (2e-4) is a tenth of what
-/// reading between texels costs.
+/// The (scale, bias) table: x = n.v, y = perceptual roughness.
 pub(crate) fn dfg(gpu: &Gpu, table: &DfgTable) -> wgpu::TextureView {
     let size = table.size as u32;
-    let bytes: Vec<u8> = table.texels.iter().flat_map(|texel| texel.map(to_f16)).flat_map(f16::to_le_bytes).collect();
     let texture = new_texture(gpu, wgpu::TextureFormat::Rg16Float, [size, size, 1], 1);
-    write(gpu, &texture, 0, [size, size, 1], &bytes);
+    write(gpu, &texture, 0, [size, size, 1], &dfg_bytes(table));
     texture.create_view(&Default::default())
 }
 
@@ -104,32 +96,6 @@ fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
     }
 }
 
-fn texel_bytes(image: &Image, format: wgpu::TextureFormat) -> Cow<'_, [u8]> {
-    let half = format == wgpu::TextureFormat::Rgba16Float;
-    match image.texels() {
-        Texels::U8(texels) => Cow::Borrowed(bytemuck::cast_slice(texels)),
-        Texels::U16(texels) => {
-            let floats = texels.iter().map(|texel| texel.map(|c| f32::from(c) / 65535.0));
-            Cow::Owned(if half { f16_bytes(floats) } else { f32_bytes(floats) })
-        }
-        Texels::F32(texels) if half => Cow::Owned(f16_bytes(texels.iter().copied())),
-        Texels::F32(texels) => Cow::Borrowed(bytemuck::cast_slice(texels)),
-    }
-}
-
-fn f32_bytes(texels: impl Iterator<Item = [f32; 4]>) -> Vec<u8> {
-    texels.flat_map(|texel| texel.into_iter().flat_map(f32::to_le_bytes)).collect()
-}
-
-fn f16_bytes(texels: impl Iterator<Item = [f32; 4]>) -> Vec<u8> {
-    texels.flat_map(|texel| texel.into_iter().flat_map(|c| to_f16(c).to_le_bytes())).collect()
-}
-
-/// Rounds to a half float; what is too large becomes the largest, and NaN becomes 0.
-fn to_f16(x: f32) -> f16 {
-    if x.is_nan() { f16::ZERO } else { f16::from_f32(x.clamp(-F16_MAX, F16_MAX)) }
-}
-
 fn new_texture(gpu: &Gpu, format: wgpu::TextureFormat, size: [u32; 3], levels: u32) -> wgpu::Texture {
     let [width, height, depth_or_array_layers] = size;
     gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -161,18 +127,4 @@ fn write(gpu: &Gpu, texture: &wgpu::Texture, mip_level: u32, size: [u32; 3], byt
         },
         wgpu::Extent3d { width, height, depth_or_array_layers },
     );
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn half_floats_stay_finite() {
-        assert_eq!(to_f16(1e9).to_f32(), F16_MAX);
-        assert_eq!(to_f16(f32::INFINITY).to_f32(), F16_MAX);
-        assert_eq!(to_f16(f32::NEG_INFINITY).to_f32(), -F16_MAX);
-        assert_eq!(to_f16(f32::NAN).to_f32(), 0.0);
-        assert_eq!(to_f16(0.5).to_f32(), 0.5);
-    }
 }

@@ -24,6 +24,7 @@ mod passes;
 mod picture;
 mod real;
 pub mod scene;
+pub mod texels;
 mod textures;
 pub mod tone_map;
 mod view;

@@ -16,6 +16,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("crates/raster", &["graph", "codegen", "interp", "scene", "ibl", "maps", "shaders"]),
     ("crates/reference", &["brdf", "maps", "ibl", "graph", "scene", "codegen", "interp", "raster"]),
     ("crates/render", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
+    ("crates/web", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
     ("crates/report", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),
     (
         "editor",
@@ -49,6 +50,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "report",
             "shaders",
             "editor",
+            "web",
         ],
     ),
 ];

@@ -2,34 +2,40 @@
 
 use std::path::PathBuf;
 
-use halfvector_codegen::target::{TARGETS, Target, export, target};
+use halfvector_codegen::target::{OutputFile, TARGETS, Target, export, target};
 use halfvector_codegen::{Fold, Shader};
+use halfvector_graph::document::Document;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::{Needs, ShaderOutput};
+use halfvector_scene::{Scene, SceneMaterial};
 use serde_json::json;
 
+use crate::environment::{bake, load};
 use crate::failure::Failure;
 use crate::input::{self, Kind};
 use crate::output::{check_place, note, print_json, write_file};
 
 /// Writes the shader of a material, and its bindings, parameters and vertex inputs as JSON.
 ///
-/// Without --scene it serves one directional light, no environment and no tone map.
+/// Without --scene it serves one directional light, no environment and no tone map; with --target web it is the page of
+/// what `halfvector render` draws: a sphere under the environment `studio`.
 #[derive(clap::Args, Debug)]
-#[command(after_help = "Example:
-  halfvector export examples/plain-dielectric.material.json --target wgsl -o out")]
+#[command(after_help = "Examples:
+  halfvector export examples/plain-dielectric.material.json --target wgsl -o out
+  halfvector export examples/car-paint.material.json --target web -o page")]
 pub(crate) struct ExportArgs {
     /// A material (*.material.json)
     #[arg(value_name = "DOC")]
     document: PathBuf,
-    /// The shading language
+    /// The shading language, or web: one page, index.html, that draws itself with WebGPU and needs no network
     #[arg(long, value_name = "TARGET", value_parser = parse_target)]
-    target: &'static Target,
+    target: Wanted,
     /// The folder for the files; made when missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Serve this scene's lights, environment and tone map
+    /// Serve this scene's lights, environment and tone map; with --target web draw it. The material takes the place of the
+    /// scene's first one, unless the scene has it already
     #[arg(long, value_name = "SCENE")]
     scene: Option<PathBuf>,
     #[command(flatten)]
@@ -38,6 +44,18 @@ pub(crate) struct ExportArgs {
     #[arg(long)]
     explain: bool,
 }
+
+/// What is exported.
+#[derive(Clone, Copy, Debug)]
+enum Wanted {
+    /// A shader.
+    Code(&'static Target),
+    /// A page with everything that it draws.
+    Page,
+}
+
+/// Name of the page's target.
+const PAGE: &str = "web";
 
 /// Runs the command.
 pub(crate) fn run(args: &ExportArgs) -> Result<u8, Failure> {
@@ -52,20 +70,10 @@ pub(crate) fn run(args: &ExportArgs) -> Result<u8, Failure> {
     }
     let document = input::material(&args.document)?;
     input::refuse_errors(&args.document, &document)?;
-    let mut needs = match &args.scene {
-        None => plain_needs(),
-        Some(path) => {
-            let scene = input::load_scene(path)?;
-            halfvector_scene::needs(&scene, ShaderOutput::Display(scene.tone_map))
-        }
+    let (shader, files) = match args.target {
+        Wanted::Code(target) => code(args, &document, target)?,
+        Wanted::Page => page(args, document)?,
     };
-    args.methods.apply(&mut needs.methods);
-    let failed = |error: &dyn std::fmt::Display| {
-        Failure::input("no shader could be made of the material").at(&args.document).because(error)
-    };
-    let shader = halfvector_codegen::shader(&document, Library::standard(), &needs, Fold::Export)
-        .map_err(|error| failed(&error))?;
-    let files = export(&shader, args.target, &file_stem(args)).map_err(|error| failed(&error))?;
     let paths: Vec<_> = files.iter().map(|file| args.output.join(&file.name)).collect();
     paths.iter().try_for_each(|path| check_place(path))?;
     for (file, path) in files.iter().zip(&paths) {
@@ -76,6 +84,64 @@ pub(crate) fn run(args: &ExportArgs) -> Result<u8, Failure> {
         print_json(&explanation(&shader))?;
     }
     Ok(0)
+}
+
+/// The shader in a language.
+fn code(args: &ExportArgs, document: &Document, target: &Target) -> Result<(Shader, Vec<OutputFile>), Failure> {
+    let mut needs = match &args.scene {
+        None => plain_needs(),
+        Some(path) => {
+            let scene = input::load_scene(path)?;
+            halfvector_scene::needs(&scene, ShaderOutput::Display(scene.tone_map))
+        }
+    };
+    args.methods.apply(&mut needs.methods);
+    let shader = shader(args, document, &needs)?;
+    let files = export(&shader, target, &file_stem(args)).map_err(|error| failed(args, error))?;
+    Ok((shader, files))
+}
+
+/// A page with the scene, or with what `render` draws of the bare material.
+fn page(args: &ExportArgs, document: Document) -> Result<(Shader, Vec<OutputFile>), Failure> {
+    let mut scene = match &args.scene {
+        None => input::scene(&args.document, None)?,
+        Some(path) => {
+            let mut scene = input::load_scene(path)?;
+            wear(&mut scene, &document, args)?;
+            scene
+        }
+    };
+    scene.name.clone_from(&document.name);
+    args.methods.apply(&mut scene.methods);
+    scene.notes.iter().for_each(|text| note(format_args!("note: {text}")));
+    let shader = shader(args, &document, &halfvector_scene::needs(&scene, ShaderOutput::Radiance))?;
+    let loaded = load(&scene.environment)?;
+    let environment = loaded.map(|loaded| bake(&scene, &loaded));
+    let text = halfvector_web::page(&scene, environment.as_ref()).map_err(|error| failed(args, error))?;
+    Ok((shader, vec![OutputFile { name: "index.html".to_owned(), bytes: text.into_bytes() }]))
+}
+
+/// Puts the material in the place of the scene's first one, unless the scene has it.
+fn wear(scene: &mut Scene, document: &Document, args: &ExportArgs) -> Result<(), Failure> {
+    if scene.materials.iter().any(|material| material.document == *document) {
+        return Ok(());
+    }
+    let material = SceneMaterial { document: document.clone(), directory: input::folder(&args.document).to_owned() };
+    match scene.materials.first_mut() {
+        Some(first) => *first = material,
+        None => scene.materials.push(material),
+    }
+    scene
+        .load_images()
+        .map_err(|error| Failure::input("an image could not be loaded").at(&args.document).because(error))
+}
+
+fn shader(args: &ExportArgs, document: &Document, needs: &Needs) -> Result<Shader, Failure> {
+    halfvector_codegen::shader(document, Library::standard(), needs, Fold::Export).map_err(|error| failed(args, error))
+}
+
+fn failed(args: &ExportArgs, error: impl std::fmt::Display) -> Failure {
+    Failure::input("no shader could be made of the material").at(&args.document).because(error)
 }
 
 /// What a shader serves that is made for no scene: one directional light.
@@ -103,9 +169,12 @@ fn explanation(shader: &Shader) -> serde_json::Value {
     json!({ "dropped": dropped })
 }
 
-fn parse_target(text: &str) -> Result<&'static Target, String> {
-    target(text).ok_or_else(|| {
-        let names: Vec<_> = TARGETS.iter().map(|target| target.name).collect();
+fn parse_target(text: &str) -> Result<Wanted, String> {
+    if text == PAGE {
+        return Ok(Wanted::Page);
+    }
+    target(text).map(Wanted::Code).ok_or_else(|| {
+        let names: Vec<_> = TARGETS.iter().map(|target| target.name).chain([PAGE]).collect();
         format!("the targets are {}", names.join(", "))
     })
 }

@@ -1,0 +1,122 @@
+//! Textures, samplers and vertices as the page's script takes them: WebGPU's names, and bytes as base64 of zlib.
+
+use halfvector_codegen::reflection::SamplerSource;
+use halfvector_graph::value::{ColorSpace, Filter, Type, Wrap};
+use halfvector_ibl::{BakedEnvironment, Cube, DFG_SIZE, Visibility, dfg_table_with};
+use halfvector_maps::{Image, Texels};
+use halfvector_scene::texels::{TexelFormat, cube_bytes, dfg_bytes, image_bytes};
+use halfvector_scene::texture_levels;
+use serde_json::{Value, json};
+
+/// zlib's level: the next ones are slower by more than they are smaller.
+const COMPRESSION: u8 = 6;
+
+/// Bytes as base64 (RFC 4648, section 4) of zlib.
+pub(crate) fn blob(bytes: &[u8]) -> Value {
+    Value::from(base64(&miniz_oxide::deflate::compress_to_vec_zlib(bytes, COMPRESSION)))
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let word = three.iter().enumerate().fold(0_u32, |word, (i, &byte)| word | u32::from(byte) << (16 - 8 * i));
+        for digit in 0..4 {
+            let six = (word >> (18 - 6 * digit)) & 63;
+            text.push(if digit <= three.len() { char::from(DIGITS[six as usize]) } else { '=' });
+        }
+    }
+    text
+}
+
+/// A picture with its mip levels. More than 8 bits become 16-bit floats, which every device filters.
+pub(crate) fn image(image: &Image, color_space: ColorSpace) -> Value {
+    let levels = texture_levels(image, color_space);
+    let (format, texels, size) = match (image.texels(), levels.color_space) {
+        (Texels::U8(_), ColorSpace::Srgb) => ("rgba8unorm-srgb", TexelFormat::Unorm8, 4),
+        (Texels::U8(_), ColorSpace::Linear) => ("rgba8unorm", TexelFormat::Unorm8, 4),
+        _ => ("rgba16float", TexelFormat::Float16, 8),
+    };
+    let mut bytes = Vec::new();
+    levels.all().for_each(|level| bytes.extend_from_slice(&image_bytes(level, texels)));
+    let sizes = levels.all().map(|level| [level.width(), level.height()]).collect();
+    texture(format, size, 1, sizes, &bytes)
+}
+
+/// The prefiltered radiance: a cube with one level for each roughness.
+pub(crate) fn radiance(baked: &BakedEnvironment) -> Value {
+    cube(&baked.radiance, &baked.slope)
+}
+
+/// The irradiance over pi.
+pub(crate) fn irradiance(baked: &BakedEnvironment) -> Value {
+    cube(std::slice::from_ref(&baked.irradiance_over_pi), &[])
+}
+
+fn cube(levels: &[Cube], slopes: &[Vec<f32>]) -> Value {
+    let mut bytes = Vec::new();
+    for (level, cube) in levels.iter().enumerate() {
+        bytes.extend(cube_bytes(cube, slopes.get(level).map(Vec::as_slice)));
+    }
+    let sizes = levels.iter().map(|cube| [cube.size as u32; 2]).collect();
+    texture("rgba16float", 8, 6, sizes, &bytes)
+}
+
+/// The table of (scale, bias).
+pub(crate) fn dfg(visibility: Visibility) -> Value {
+    let table = dfg_table_with(DFG_SIZE, visibility);
+    texture("rg16float", 4, 1, vec![[table.size as u32; 2]], &dfg_bytes(&table))
+}
+
+/// `texel`: bytes of one.
+fn texture(format: &str, texel: u32, layers: u32, levels: Vec<[u32; 2]>, bytes: &[u8]) -> Value {
+    json!({ "format": format, "texel": texel, "layers": layers, "levels": levels, "blob": blob(bytes) })
+}
+
+/// A sampler's descriptor.
+pub(crate) fn sampler(source: &SamplerSource) -> Value {
+    let (wrap_u, wrap_v, filter) = match source {
+        SamplerSource::Image { wrap_u, wrap_v, filter } => (*wrap_u, *wrap_v, *filter),
+        SamplerSource::LinearClamp => (Wrap::Clamp, Wrap::Clamp, Filter::Linear),
+    };
+    let mode = |wrap| match wrap {
+        Wrap::Repeat => "repeat",
+        Wrap::Clamp => "clamp-to-edge",
+        Wrap::Mirror => "mirror-repeat",
+    };
+    let filter = match filter {
+        Filter::Linear => "linear",
+        Filter::Nearest => "nearest",
+    };
+    json!({
+        "addressModeU": mode(wrap_u),
+        "addressModeV": mode(wrap_v),
+        "magFilter": filter,
+        "minFilter": filter,
+        "mipmapFilter": filter,
+    })
+}
+
+/// A vertex attribute's format and its bytes.
+pub(crate) fn vertex_format(ty: Type) -> (String, usize) {
+    let format = match ty.components() {
+        1 => "float32".to_owned(),
+        count => format!("float32x{count}"),
+    };
+    (format, 4 * ty.components())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_of_the_standard() {
+        let cases =
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("fooba", "Zm9vYmE=")];
+        for (bytes, text) in cases {
+            assert_eq!(base64(bytes.as_bytes()), text);
+        }
+        assert_eq!(base64(&[0xfb, 0xff, 0xfe]), "+//+");
+    }
+}
