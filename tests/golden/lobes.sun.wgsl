@@ -66,7 +66,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
     let diffuse = Diffuse(vec3f(0.7, 0.3, 0.2) * (1.0 - 0.4) * coupling_colored(vec3f(0.040000003) + film_shift, vec3f(1.0) + film_shift, dfg), 0.5);
     let transmission = Transmission(vec3f(0.7, 0.3, 0.2) * 0.4 * film_through, 1.5, alpha_from_perceptual_roughness(max(0.5, PUNCTUAL_ROUGHNESS_FLOOR)));
-    let transmission_gain = transmission_compensation(frame.n_dot_v, transmission);
+    let transmission_gain = transmission.eta * transmission.eta * transmission_compensation(frame.n_dot_v, transmission);
     let coat = Coat(0.8, vec3f(1.0, 0.9, 0.8), 0.040000003, alpha_from_perceptual_roughness(max(0.1, PUNCTUAL_ROUGHNESS_FLOOR)));
     let coat_dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.1);
     let under_coat = coat_base(coat, frame.n_dot_v, coat_dfg);

@@ -105,7 +105,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
     let diffuse = Diffuse(diffuse_albedo * (1.0 - parameters.transmission_weight) * coupling_colored(vec3f(dielectric_f0_2) + dielectric_shift, vec3f(parameters.specular) + dielectric_shift, dfg), parameters.perceptual_roughness);
     let transmission = Transmission(diffuse_albedo * parameters.transmission_weight * film_through, parameters.ior, alpha_from_perceptual_roughness(max(parameters.perceptual_roughness, PUNCTUAL_ROUGHNESS_FLOOR)));
-    let transmission_gain = transmission_compensation(frame.n_dot_v, transmission);
+    let transmission_gain = transmission.eta * transmission.eta * transmission_compensation(frame.n_dot_v, transmission);
     let coat = Coat(parameters.coat_weight, parameters.coat_color, coat_f0, alpha_from_perceptual_roughness(max(parameters.coat_roughness, PUNCTUAL_ROUGHNESS_FLOOR)));
     let coat_dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, parameters.coat_roughness);
     let under_coat = coat_base(coat, frame.n_dot_v, coat_dfg);

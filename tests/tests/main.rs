@@ -18,5 +18,6 @@ mod raster;
 mod relief;
 mod support;
 mod tidy;
+mod truth;
 mod twins;
 mod web;

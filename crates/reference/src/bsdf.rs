@@ -3,19 +3,27 @@
 //! Lobes, their order and what layers leave to what lies below are those of the generated shaders; what those look up in
 //! filtered environments is integrated here.
 
-use halfvector_brdf::coupling::{coupling_compensated, coupling_light, coupling_single};
+use halfvector_brdf::anisotropic::{d_ggx_anisotropic, v_smith_ggx_anisotropic};
+use halfvector_brdf::coupling::{coupling_colored, coupling_compensated, coupling_light, coupling_single};
 use halfvector_brdf::frame::{Frame, Half, frame_from_normal, half_from_light};
 use halfvector_brdf::fresnel::f0_from_ior;
 use halfvector_brdf::ggx::alpha_from_perceptual_roughness;
+use halfvector_brdf::lobe_anisotropic::{anisotropic_alphas_gltf, anisotropic_tangent};
 use halfvector_brdf::lobe_coat::{Coat, coat_base, coat_eval};
 use halfvector_brdf::lobe_multiscatter::{Multiscatter, multiscatter_eval, multiscatter_from_dfg};
 use halfvector_brdf::lobe_sampling::{
-    diffuse_pdf, diffuse_sample, sheen_pdf, sheen_sample, specular_pdf, specular_sample, transmission_pdf,
-    transmission_sample,
+    anisotropic_pdf, anisotropic_sample, diffuse_pdf, diffuse_sample, sheen_pdf, sheen_sample, specular_pdf,
+    specular_sample, transmission_pdf, transmission_sample, transmission_thin_pdf, transmission_thin_sample,
 };
 use halfvector_brdf::lobe_sheen::{Sheen, sheen_base, sheen_eval};
-use halfvector_brdf::lobe_transmission::{Transmission, transmission_compensation, transmission_eval};
-use halfvector_brdf::math::finite_or_zero;
+use halfvector_brdf::lobe_thin_film::{
+    ThinFilm, thin_film_cosine, thin_film_fresnel, thin_film_shift, thin_film_through,
+};
+use halfvector_brdf::lobe_transmission::{
+    Transmission, f0_of_sheet, transmission_compensation, transmission_eval, transmission_thin_compensation,
+    transmission_thin_eval,
+};
+use halfvector_brdf::math::{finite_or_zero, normalize_or};
 use halfvector_brdf::metallic_roughness::{diffuse_color, f0_from_metallic};
 use halfvector_brdf::vector::{add, cross, dot, mul, scale};
 
@@ -44,7 +52,12 @@ impl Basis {
         let sign = 1.0_f64.copysign(z);
         let a = -1.0 / (sign + z);
         let b = x * y * a;
-        let (tangent, bitangent) = ([1.0 + sign * x * x * a, sign * b, -sign * x], [b, sign + y * y * a, -y]);
+        Basis::along(normal, [1.0 + sign * x * x * a, sign * b, -sign * x], view_dir)
+    }
+
+    /// With a unit tangent across the normal that is given.
+    fn along(normal: [f64; 3], tangent: [f64; 3], view_dir: [f64; 3]) -> Basis {
+        let bitangent = cross(normal, tangent);
         let (u, v, w) = (dot(tangent, view_dir), dot(bitangent, view_dir), dot(normal, view_dir).max(1e-6));
         let length = (u * u + v * v + w * w).sqrt();
         Basis { frame: frame_from_normal(normal, view_dir), tangent, bitangent, view: [u, v, w].map(|x| x / length) }
@@ -80,12 +93,20 @@ pub(crate) struct Bsdf<'m> {
     dielectric: [f64; 2],
     f0: [f64; 3],
     f90: [f64; 3],
-    alpha: f64,
+    /// Widths along the basis' tangent and across it; the same where the surface is not brushed.
+    alphas: [f64; 2],
+    /// The roughness of the specular lobe's albedo.
+    specular_roughness: f64,
+    film: Option<ThinFilm<f64>>,
     compensation: [f64; 3],
     multiscatter: Option<Multiscatter<f64>>,
     coat: Option<Coat<f64>>,
     sheen: Option<Sheen<f64>>,
     transmission: Option<Transmission<f64>>,
+    /// What brings back what single scattering loses of the light that passes.
+    transmission_gain: f64,
+    /// A sheet, which light leaves as it came, and not a body.
+    is_sheet: bool,
     under_coat: [f64; 3],
     under_sheen: f64,
     /// Radiance of its own.
@@ -95,29 +116,77 @@ pub(crate) struct Bsdf<'m> {
 }
 
 impl<'m> Bsdf<'m> {
-    pub(crate) fn new(model: &'m Model, surface: &Surface, view_dir: [f64; 3]) -> Bsdf<'m> {
-        let base = Basis::new(surface.normal, view_dir);
-        let n_dot_v = base.frame.n_dot_v;
+    /// `tangent` is the mesh's, with its handedness; only a brushed surface looks at it. `sheet`: transmission is that of a thin
+    /// wall.
+    pub(crate) fn new(
+        model: &'m Model,
+        surface: &Surface,
+        view_dir: [f64; 3],
+        tangent: [f64; 4],
+        sheet: bool,
+    ) -> Bsdf<'m> {
         let r = surface.perceptual_roughness;
         let floored = |r: f64| alpha_from_perceptual_roughness(r).max(ALPHA_FLOOR);
-        let dielectric = [f0_from_ior(surface.ior) * surface.specular, surface.specular];
+        let mut base = Basis::new(surface.normal, view_dir);
+        let (mut alphas, mut specular_roughness) = ([floored(r); 2], r);
+        if surface.anisotropy > 0.0 {
+            let tangent = anisotropic_tangent(surface.normal, tangent, surface.anisotropy_rotation);
+            base = Basis::along(surface.normal, tangent, view_dir);
+            alphas = anisotropic_alphas_gltf(r, surface.anisotropy).map(|alpha| alpha.max(ALPHA_FLOOR));
+            specular_roughness = (alphas[0] * alphas[1]).sqrt().sqrt();
+        }
+        let n_dot_v = base.frame.n_dot_v;
+        let through = surface.transmission_weight * (1.0 - surface.metallic.clamp(0.0, 1.0));
+        let is_sheet = sheet && through > 0.0;
+        let mut dielectric = [f0_from_ior(surface.ior) * surface.specular, surface.specular];
+        if is_sheet {
+            dielectric[0] = f0_of_sheet(dielectric[0], surface.transmission_weight);
+        }
         let f0 = f0_from_metallic(surface.base_color, surface.metallic, dielectric[0]);
         let f90 = [surface.specular + (1.0 - surface.specular) * surface.metallic; 3];
         let f90 = if model.conductor.is_some() { [1.0; 3] } else { f90 };
         let color = diffuse_color(surface.base_color, surface.metallic);
-        let through = surface.transmission_weight * (1.0 - surface.metallic.clamp(0.0, 1.0));
         let has_specular = model.conductor.is_some() || f0.iter().chain(&f90).any(|f| *f > 0.0);
         let has_diffuse = color.iter().any(|c| *c > 0.0);
+        let film = (surface.thin_film_weight > 0.0 && has_specular && model.conductor.is_none()).then(|| ThinFilm {
+            weight: surface.thin_film_weight,
+            thickness: 1000.0 * surface.thin_film_thickness,
+            ior: surface.thin_film_ior,
+        });
 
         let couples = has_diffuse && dielectric[1] > 0.0 && model.coupling != Coupling::None;
-        let dfg = if has_specular && (model.compensates() || couples) { model.dfg(n_dot_v, r) } else { [1.0, 0.0] };
+        let reads_dfg = has_specular && (model.compensates() || couples || film.is_some());
+        let dfg = if reads_dfg { model.dfg(n_dot_v, specular_roughness) } else { [1.0, 0.0] };
+        // What the film adds to the reflectance of the whole lobe, and of its dielectric part alone.
+        let cosine = thin_film_cosine(dfg);
+        let shift = |f0: [f64; 3], f90: [f64; 3]| film.map_or([0.0; 3], |film| thin_film_shift(f0, f90, film, cosine));
+        let added = shift(f0, f90);
+        let (of_base, at_grazing) = ([dielectric[0]; 3], [dielectric[1]; 3]);
+        let below = shift(of_base, at_grazing);
+
         let mut diffuse = scale(color, 1.0 - surface.transmission_weight);
-        if couples {
+        if couples && film.is_some() {
+            diffuse = mul(diffuse, coupling_colored(add(of_base, below), add(at_grazing, below), dfg));
+        } else if couples {
             let share = if model.compensates() { coupling_compensated::<f64> } else { coupling_single::<f64> };
             diffuse = scale(diffuse, share(dielectric[0], dielectric[1], dfg));
         }
-        let compensation = model.compensation.map_or([1.0; 3], |factor| factor(f0, f90, dfg));
-        let multiscatter = (model.multiscatter && has_specular).then(|| multiscatter_from_dfg(f0, f90, dfg, r));
+        let mut passes = scale(color, surface.transmission_weight);
+        if film.is_some() {
+            passes = mul(passes, thin_film_through(below, of_base, at_grazing, cosine));
+        }
+        let transmission = (through > 0.0).then(|| Transmission { color: passes, eta: surface.ior, alpha: floored(r) });
+        let transmission_gain = match transmission {
+            Some(_) if model.compensates() && is_sheet => {
+                transmission_thin_compensation(dielectric[0], model.dfg(n_dot_v, specular_roughness))
+            }
+            Some(lobe) if model.compensates() => transmission_compensation(n_dot_v, lobe),
+            _ => 1.0,
+        };
+        let (lit_f0, lit_f90) = (add(f0, added), add(f90, added));
+        let compensation = model.compensation.map_or([1.0; 3], |factor| factor(lit_f0, lit_f90, dfg));
+        let multiscatter = (model.multiscatter && has_specular)
+            .then(|| multiscatter_from_dfg(lit_f0, lit_f90, dfg, specular_roughness));
 
         let mut made = Bsdf {
             model,
@@ -128,16 +197,16 @@ impl<'m> Bsdf<'m> {
             dielectric,
             f0,
             f90,
-            alpha: floored(r),
+            alphas,
+            specular_roughness,
+            film,
             compensation,
             multiscatter,
             coat: None,
             sheen: None,
-            transmission: (through > 0.0).then(|| Transmission {
-                color: scale(color, surface.transmission_weight),
-                eta: surface.ior,
-                alpha: floored(r),
-            }),
+            transmission,
+            transmission_gain,
+            is_sheet,
             under_coat: [1.0; 3],
             under_sheen: 1.0,
             emission: surface.emission,
@@ -168,8 +237,10 @@ impl<'m> Bsdf<'m> {
     /// Gives each lobe its share of the samples: by what it may reflect.
     fn share(&mut self, has_specular: bool) {
         let most = |c: [f64; 3]| c[0].max(c[1]).max(c[2]).max(0.0);
-        let grazing = (1.0 - self.base.frame.n_dot_v).powi(5);
-        let reflected = most(std::array::from_fn(|i| self.f0[i] + (self.f90[i] - self.f0[i]).max(0.0) * grazing));
+        let n_dot_v = self.base.frame.n_dot_v;
+        let grazing = (1.0 - n_dot_v).powi(5);
+        let bare: [f64; 3] = std::array::from_fn(|i| self.f0[i] + (self.f90[i] - self.f0[i]).max(0.0) * grazing);
+        let reflected = most(self.film.map_or(bare, |film| thin_film_fresnel(self.f0, self.f90, film, n_dot_v)));
         let below = most(self.under_coat) * self.under_sheen;
         let multiscatter = self.multiscatter.map_or(0.0, |lobe| most(lobe.color) * lobe.loss);
         let weights = [
@@ -201,15 +272,18 @@ impl<'m> Bsdf<'m> {
         let half = half_from_light(frame, l);
         let mut base = [0.0; 3];
         if half.n_dot_l > 0.0 {
-            base = add(self.eval_diffuse(&half), self.eval_specular(&half));
+            base = add(self.eval_diffuse(&half), self.eval_specular(&half, l));
             if let Some(lobe) = self.multiscatter {
-                let dfg = self.model.dfg(half.n_dot_l, self.perceptual_roughness);
+                let dfg = self.model.dfg(half.n_dot_l, self.specular_roughness);
                 base = add(base, multiscatter_eval(frame, l, lobe, dfg));
             }
         } else if let Some(lobe) = self.transmission {
-            // What enters a body is compressed by eta^2, and leaves it again.
-            let gain = if self.model.compensates() { transmission_compensation(frame.n_dot_v, lobe) } else { 1.0 };
-            base = scale(transmission_eval(frame, l, lobe), gain * lobe.eta * lobe.eta);
+            base = if self.is_sheet {
+                scale(transmission_thin_eval(frame, l, lobe), self.transmission_gain)
+            } else {
+                // What enters a body is compressed by eta^2, and leaves it again.
+                scale(transmission_eval(frame, l, lobe), self.transmission_gain * lobe.eta * lobe.eta)
+            };
         }
         let mut sum = mul(base, scale(self.under_coat, self.under_sheen));
         if let Some(coat) = self.coat {
@@ -230,17 +304,33 @@ impl<'m> Bsdf<'m> {
             (self.model.diffuse)(self.diffuse, frame.n_dot_v, half.n_dot_l, half.l_dot_h, self.perceptual_roughness);
         let mut part = scale(brdf, half.n_dot_l);
         if self.model.coupling == Coupling::Reciprocal && self.dielectric[1] > 0.0 {
-            let dfg = self.model.dfg(half.n_dot_l, self.perceptual_roughness);
+            let dfg = self.model.dfg(half.n_dot_l, self.specular_roughness);
             let [f0, f90] = self.dielectric;
-            part = scale(part, coupling_light(f0, f90, dfg, self.perceptual_roughness));
+            part = scale(part, coupling_light(f0, f90, dfg, self.specular_roughness));
         }
         finite_or_zero(part)
     }
 
-    fn eval_specular(&self, half: &Half<f64>) -> [f64; 3] {
-        let d = (self.model.d)(half.n_dot_h, half.sin2_theta_h, self.alpha);
-        let v = (self.model.v)(self.base.frame.n_dot_v, half.n_dot_l, half.l_dot_h, self.alpha);
-        let f = self.model.reflectance(self.f0, self.f90, half.l_dot_h);
+    fn eval_specular(&self, half: &Half<f64>, l: [f64; 3]) -> [f64; 3] {
+        let frame = self.base.frame;
+        let [alpha, across] = self.alphas;
+        let (d, v);
+        if alpha == across {
+            d = (self.model.d)(half.n_dot_h, half.sin2_theta_h, alpha);
+            v = (self.model.v)(frame.n_dot_v, half.n_dot_l, half.l_dot_h, alpha);
+        } else {
+            let with_normal = |[x, y, _]: [f64; 3], z: f64| [x, y, z];
+            let h = self.base.local(normalize_or(add(frame.view_dir, l), [0.0; 3]));
+            let (view, light) = (self.base.local(frame.view_dir), self.base.local(l));
+            let [h, view, light] = [(h, half.n_dot_h), (view, frame.n_dot_v), (light, half.n_dot_l)]
+                .map(|(dir, cosine)| with_normal(dir, cosine));
+            d = d_ggx_anisotropic(h, alpha, across);
+            v = v_smith_ggx_anisotropic(view, light, alpha, across);
+        }
+        let f = match self.film {
+            Some(film) => thin_film_fresnel(self.f0, self.f90, film, half.l_dot_h),
+            None => self.model.reflectance(self.f0, self.f90, half.l_dot_h),
+        };
         finite_or_zero(mul(scale(f, v * half.n_dot_l * d), self.compensation))
     }
 
@@ -259,11 +349,14 @@ impl<'m> Bsdf<'m> {
         }
         // What leaves through the wrong side of its lobe's surface carries no light.
         let (basis, local, side) = match (chosen, self.transmission) {
-            (Some(Lobe::Specular), _) => (&self.base, specular_sample(self.base.view, self.alpha, u), 1.0),
+            (Some(Lobe::Specular), _) => (&self.base, anisotropic_sample(self.base.view, self.alphas, u), 1.0),
             (Some(Lobe::Coat), _) => {
                 (&self.coat_basis, specular_sample(self.coat_basis.view, self.coat_alpha(), u), 1.0)
             }
             (Some(Lobe::Sheen), _) => (&self.base, sheen_sample(self.base.view, u), 1.0),
+            (Some(Lobe::Transmission), Some(lobe)) if self.is_sheet => {
+                (&self.base, transmission_thin_sample(self.base.view, lobe.alpha, u), -1.0)
+            }
             (Some(Lobe::Transmission), Some(lobe)) => (&self.base, transmission_sample(self.base.view, lobe, u), -1.0),
             _ => (&self.base, diffuse_sample(self.base.view, u), 1.0),
         };
@@ -284,9 +377,12 @@ impl<'m> Bsdf<'m> {
             }
             let in_coat = if lobe == Lobe::Coat { self.coat_basis.local(l) } else { local };
             let density = match (lobe, self.transmission) {
+                (Lobe::Transmission, Some(lobe)) if local[2] < 0.0 && self.is_sheet => {
+                    transmission_thin_pdf(self.base.view, local, lobe.alpha)
+                }
                 (Lobe::Transmission, Some(lobe)) if local[2] < 0.0 => transmission_pdf(self.base.view, local, lobe),
                 (Lobe::Diffuse, _) if local[2] > 0.0 => diffuse_pdf(self.base.view, local),
-                (Lobe::Specular, _) if local[2] > 0.0 => specular_pdf(self.base.view, local, self.alpha),
+                (Lobe::Specular, _) if local[2] > 0.0 => anisotropic_pdf(self.base.view, local, self.alphas),
                 (Lobe::Coat, _) if in_coat[2] > 0.0 => specular_pdf(self.coat_basis.view, in_coat, self.coat_alpha()),
                 (Lobe::Sheen, _) if local[2] > 0.0 => sheen_pdf(self.base.view, local),
                 _ => 0.0,
@@ -329,8 +425,15 @@ mod tests {
             sheen_color: [0.0; 3],
             sheen_roughness: 0.4,
             transmission_weight: 0.0,
+            anisotropy: 0.0,
+            anisotropy_rotation: 0.0,
+            thin_film_weight: 0.0,
+            thin_film_thickness: 0.4,
+            thin_film_ior: 1.4,
         }
     }
+
+    const TANGENT: [f64; 4] = [0.8, 0.6, 0.0, 1.0];
 
     /// What is drawn by the lobes and what is drawn evenly over the sphere have the same mean, and densities integrate to 1 at
     /// most.
@@ -345,14 +448,18 @@ mod tests {
             Surface { sheen_color: [0.7; 3], ..surface() },
             Surface { transmission_weight: 0.9, perceptual_roughness: 0.7, ..surface() },
             Surface { normal: tilted, metallic: 0.5, ..surface() },
+            Surface { anisotropy: 0.7, anisotropy_rotation: 0.4, metallic: 1.0, ..surface() },
+            Surface { anisotropy: 0.9, thin_film_weight: 0.8, normal: tilted, ..surface() },
+            Surface { transmission_weight: 0.9, thin_film_weight: 1.0, perceptual_roughness: 0.6, ..surface() },
         ];
         for (case, surface) in surfaces.iter().enumerate() {
+            let sheet = case + 1 == surfaces.len();
             for compensation in ["turquin", "kulla_conty", "none"] {
                 let mut methods = Methods::default();
                 methods.set("compensation", compensation).expect("a method");
                 let model = Model::new(&methods, None);
                 let view = [0.6, 0.0, 0.8];
-                let bsdf = Bsdf::new(&model, surface, view);
+                let bsdf = Bsdf::new(&model, surface, view, TANGENT, sheet);
                 let n = 60_000_u32;
                 let (mut by_lobes, mut evenly, mut densities) = ([0.0; 2], [0.0; 2], 0.0);
                 for i in 0..n {

@@ -5,8 +5,8 @@
 //! `halfvector-brdf` in f64, traces shadows, and integrates the environment itself: no prefiltered levels, no split sum, no
 //! fitted albedos. Every pixel comes with its standard error.
 //!
-//! What it does not do: displacement, anisotropic and thin-film lobes, thin walls ([`Reference::notes`] tells of them), and
-//! light inside of bodies: what enters a transmitting surface is refracted once and sees the environment, as the shaders have it.
+//! What it does not do: displacement ([`Reference::notes`] tells of it), and light inside of bodies: what enters a transmitting
+//! surface is refracted once, or passes a thin wall, and sees the environment, as the shaders have it.
 
 mod albedo;
 mod bsdf;

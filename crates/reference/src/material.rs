@@ -38,10 +38,15 @@ pub(crate) struct Surface {
     pub(crate) sheen_color: [f64; 3],
     pub(crate) sheen_roughness: f64,
     pub(crate) transmission_weight: f64,
+    pub(crate) anisotropy: f64,
+    pub(crate) anisotropy_rotation: f64,
+    pub(crate) thin_film_weight: f64,
+    pub(crate) thin_film_thickness: f64,
+    pub(crate) thin_film_ior: f64,
 }
 
 /// The members of the shader's struct that are read, each with its number of components, in the order of [`Surface`].
-const MEMBERS: [(&str, usize); 17] = [
+const MEMBERS: [(&str, usize); 22] = [
     ("base_color", 3),
     ("metallic", 1),
     ("perceptual_roughness", 1),
@@ -59,13 +64,15 @@ const MEMBERS: [(&str, usize); 17] = [
     ("sheen_color", 3),
     ("sheen_roughness", 1),
     ("transmission_weight", 1),
+    ("anisotropy", 1),
+    ("anisotropy_rotation", 1),
+    ("thin_film_weight", 1),
+    ("thin_film_thickness", 1),
+    ("thin_film_ior", 1),
 ];
 
 /// Numbers of a [`Surface`].
-const NUMBERS: usize = 33;
-
-/// Members that change what is seen and that the reference does not model, with the value at which they change nothing.
-const UNMODELLED: [(&str, f64); 3] = [("anisotropy", 0.0), ("thin_film_weight", 0.0), ("height", 0.0)];
+const NUMBERS: usize = 38;
 
 impl Surface {
     fn from_numbers(numbers: &[f64; NUMBERS]) -> Surface {
@@ -89,6 +96,11 @@ impl Surface {
             sheen_color: [one(), one(), one()],
             sheen_roughness: one(),
             transmission_weight: one(),
+            anisotropy: one(),
+            anisotropy_rotation: one(),
+            thin_film_weight: one(),
+            thin_film_thickness: one(),
+            thin_film_ior: one(),
         }
     }
 }
@@ -147,7 +159,7 @@ pub(crate) struct Material {
     samplers: Vec<((u32, u32), halfvector_interp::Sampler)>,
     /// Whether it takes derivatives of its own, beside those that choose a texture's level.
     pub(crate) derives: bool,
-    /// Whether it asks for texture coordinates, tangents or places in object space.
+    /// Whether it asks for texture coordinates, tangents or places in object space, or is brushed along its tangents.
     pub(crate) precise: bool,
     /// What opacity does, and whether both sides are seen.
     pub(crate) settings: SurfaceSettings,
@@ -241,12 +253,16 @@ impl Material {
                 Resource::Sampler(SamplerSource::LinearClamp) => {}
             }
         }
-        made.note_unmodelled(&document.name, notes)?;
+        let moved = made.look_at_samples(&document.name)?;
+        if moved {
+            notes.push(format!("the reference leaves out `height` of the material `{}`", document.name));
+        }
         Ok(made)
     }
 
-    /// Tells of members that the reference leaves out and that are set at any of some points.
-    fn note_unmodelled(&self, name: &str, notes: &mut Vec<String>) -> Result<(), ReferenceError> {
+    /// Evaluates some points: a brushed surface needs tangents. True where the surface is displaced, which the reference
+    /// leaves out.
+    fn look_at_samples(&mut self, name: &str) -> Result<bool, ReferenceError> {
         let points: Vec<Point> = (0..64)
             .map(|i| {
                 let (u, v) = (f64::from(i % 8) / 8.0 + 0.03, f64::from(i / 8) / 8.0 + 0.05);
@@ -265,21 +281,14 @@ impl Material {
             .collect();
         let mut evaluator = self.evaluator(name)?;
         evaluator.run(&points, None)?;
-        let is_set = |member: &str, neutral: f64| {
+        let is_set = |member: &str| {
             let slot = self.program.outputs().iter().position(|slot| slot.name == member);
             let column = slot.map(|slot| &evaluator.results.columns[slot]);
-            matches!(column, Some(OutputColumn::Float(numbers)) if numbers.iter().any(|x| *x != neutral))
+            matches!(column, Some(OutputColumn::Float(numbers)) if numbers.iter().any(|x| *x != 0.0))
         };
-        let mut note = |what: &str| notes.push(format!("the reference leaves out `{what}` of the material `{name}`"));
-        for (member, neutral) in UNMODELLED {
-            if is_set(member, neutral) {
-                note(member);
-            }
-        }
-        if self.settings.thin_walled && is_set("transmission_weight", 0.0) {
-            note("thin_walled");
-        }
-        Ok(())
+        let (brushed, moved) = (is_set("anisotropy"), is_set("height"));
+        self.precise |= brushed;
+        Ok(moved)
     }
 
     /// The machine that evaluates it: one for each thread.

@@ -277,7 +277,8 @@ impl Path {
             surface.normal = surface.normal.map(|x| -x);
             surface.coat_normal = surface.coat_normal.map(|x| -x);
         }
-        let bsdf = Bsdf::new(&reference.model, &surface, point.view_dir.to_array());
+        let sheet = material.settings.thin_walled;
+        let bsdf = Bsdf::new(&reference.model, &surface, point.view_dir.to_array(), point.tangent.to_array(), sheet);
         self.radiance = add(self.radiance, mul(self.throughput, bsdf.emission));
         if !bsdf.reflects() {
             return Ok(false);

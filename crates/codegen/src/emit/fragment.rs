@@ -175,13 +175,7 @@ impl Shading<'_, '_, '_> {
             let film = if plan.thin_film { " * film_through" } else { "" };
             let (ior, alpha) = (self.root("ior", "1.5"), self.alpha(&roughness)?);
             self.line(&format!("let transmission = {lobe}({color} * {weight}{film}, {ior}, {alpha});"));
-            if self.transmission_gains() {
-                let gain = if plan.thin_walled {
-                    let f0 = self.root("dielectric_f0", "0.0");
-                    format!("{}({f0}, dfg)", self.writer.library("transmission_thin_compensation")?)
-                } else {
-                    format!("{}(frame.n_dot_v, transmission)", self.writer.library("transmission_compensation")?)
-                };
+            if let Some(gain) = self.transmission_gain()? {
                 self.line(&format!("let transmission_gain = {gain};"));
             }
         }
@@ -424,10 +418,26 @@ impl Shading<'_, '_, '_> {
         Ok(format!("{lobe}({light}_film, {light}_film, {widths})"))
     }
 
-    /// Whether what single scattering loses of the light that comes through is brought back: an environment's lookup keeps
-    /// it anyway.
-    fn transmission_gains(&self) -> bool {
-        !self.parts.plan.lights.is_empty() && !self.parts.needs.methods.is("compensation", "none")
+    /// What one light through the surface is multiplied by: what brings back the loss of single scattering, and for a body
+    /// eta^2, for light that enters it leaves it again. An environment's lookup has both already.
+    fn transmission_gain(&mut self) -> Result<Option<String>, CodegenError> {
+        let plan = self.parts.plan;
+        if plan.lights.is_empty() {
+            return Ok(None);
+        }
+        let gains = !self.parts.needs.methods.is("compensation", "none");
+        Ok(match (plan.thin_walled, gains) {
+            (true, false) => None,
+            (true, true) => {
+                let f0 = self.root("dielectric_f0", "0.0");
+                Some(format!("{}({f0}, dfg)", self.writer.library("transmission_thin_compensation")?))
+            }
+            (false, false) => Some("transmission.eta * transmission.eta".to_owned()),
+            (false, true) => {
+                let compensation = self.writer.library("transmission_compensation")?;
+                Some(format!("transmission.eta * transmission.eta * {compensation}(frame.n_dot_v, transmission)"))
+            }
+        })
     }
 
     /// What one light adds by each lobe.
@@ -458,7 +468,7 @@ impl Shading<'_, '_, '_> {
         if plan.transmission {
             let eval = if plan.thin_walled { "transmission_thin_eval" } else { "transmission_eval" };
             let lobe = self.writer.library(eval)?;
-            let gain = if self.transmission_gains() { " * transmission_gain" } else { "" };
+            let gain = if self.transmission_gain()?.is_some() { " * transmission_gain" } else { "" };
             terms.push(format!("{lobe}(frame, {light}.dir, transmission){gain}{base} * {light}.illuminance"));
         }
         if plan.coat {

@@ -98,16 +98,11 @@ fn the_sphere_stands_for_its_triangles() {
 
 #[test]
 fn what_is_left_out_is_noted() {
-    let notes = |values: &[(&str, halfvector_graph::value::Value)], thin_walled| {
-        let mut scene = scene(BuiltinMesh::Sphere, values, &[]);
-        scene.materials[0].document.surface.thin_walled = thin_walled;
+    let notes = |values: &[(&str, halfvector_graph::value::Value)]| {
+        let scene = scene(BuiltinMesh::Sphere, values, &[]);
         let options = RenderOptions { width: 4, height: 4, ..RenderOptions::default() };
         Reference::new(&scene, Some(&white()), options).expect("a sound scene").notes().join("; ")
     };
-    let glass = [("transmission_weight", number(1.0))];
-    assert!(notes(&glass, true).contains("`thin_walled`"));
-    assert_eq!(notes(&glass, false), "");
-    assert_eq!(notes(&[], true), "");
-    let brushed = notes(&[("anisotropy", number(0.5)), ("thin_film_weight", number(1.0))], false);
-    assert!(brushed.contains("`anisotropy`") && brushed.contains("`thin_film_weight`"), "{brushed}");
+    assert_eq!(notes(&[("transmission_weight", number(1.0)), ("anisotropy", number(0.5))]), "");
+    assert!(notes(&[("height", number(0.1))]).contains("`height`"));
 }
