@@ -148,11 +148,12 @@ impl<'m> Bsdf<'m> {
         let color = diffuse_color(surface.base_color, surface.metallic);
         let has_specular = model.conductor.is_some() || f0.iter().chain(&f90).any(|f| *f > 0.0);
         let has_diffuse = color.iter().any(|c| *c > 0.0);
-        let film = (surface.thin_film_weight > 0.0 && has_specular && model.conductor.is_none()).then(|| ThinFilm {
+        let film = ThinFilm {
             weight: surface.thin_film_weight,
             thickness: 1000.0 * surface.thin_film_thickness,
             ior: surface.thin_film_ior,
-        });
+        };
+        let film = Some(film).filter(|film| film.weight > 0.0 && has_specular && model.conductor.is_none());
 
         let couples = has_diffuse && dielectric[1] > 0.0 && model.coupling != Coupling::None;
         let reads_dfg = has_specular && (model.compensates() || couples || film.is_some());
