@@ -57,25 +57,32 @@ fn apart(scene: &Scene) -> f64 {
     mean(&|[a, b]| (a - b).powi(2)).sqrt() / mean(&|[_, b]| *b)
 }
 
+/// Name, numbers and colours of the surface, and whether it is a thin wall.
+type Case = (&'static str, &'static [(&'static str, f32)], &'static [(&'static str, [f32; 3])], bool);
+
 #[test]
 fn lobes_under_lamps_are_those_of_the_reference() {
-    let metal = [("metallic", 1.0), ("perceptual_roughness", 0.5)];
-    let brushed = [("metallic", 1.0), ("perceptual_roughness", 0.4), ("anisotropy", 0.8), ("anisotropy_rotation", 0.6)];
-    let film = [("thin_film_weight", 0.9), ("thin_film_thickness", 0.42), ("perceptual_roughness", 0.4)];
-    let coated = [("coat_weight", 0.8), ("coat_roughness", 0.4), ("perceptual_roughness", 0.6)];
-    let glass = [("transmission_weight", 0.8), ("perceptual_roughness", 0.5)];
-    let soap = [("transmission_weight", 0.9), ("perceptual_roughness", 0.4), ("thin_film_weight", 1.0)];
-    let sheen = [("sheen_color", [0.6, 0.5, 0.4])];
-    let cases: [(&str, &[(&str, f32)], &[(&str, [f32; 3])], bool); 9] = [
+    const METAL: &[(&str, f32)] = &[("metallic", 1.0), ("perceptual_roughness", 0.5)];
+    const BRUSHED: &[(&str, f32)] =
+        &[("metallic", 1.0), ("perceptual_roughness", 0.4), ("anisotropy", 0.8), ("anisotropy_rotation", 0.6)];
+    const FILM: &[(&str, f32)] =
+        &[("thin_film_weight", 0.9), ("thin_film_thickness", 0.42), ("perceptual_roughness", 0.4)];
+    const COATED: &[(&str, f32)] = &[("coat_weight", 0.8), ("coat_roughness", 0.4), ("perceptual_roughness", 0.6)];
+    const GLASS: &[(&str, f32)] = &[("transmission_weight", 0.8), ("perceptual_roughness", 0.5)];
+    const SOAP: &[(&str, f32)] =
+        &[("transmission_weight", 0.9), ("perceptual_roughness", 0.4), ("thin_film_weight", 1.0)];
+    const SHEEN: &[(&str, [f32; 3])] = &[("sheen_color", [0.6, 0.5, 0.4])];
+    const FILM_ON_METAL: &[(&str, f32)] = &[METAL[0], METAL[1], FILM[0], FILM[1]];
+    let cases: [Case; 9] = [
         ("dielectric", &[("perceptual_roughness", 0.4)], &[], false),
-        ("metal", &metal, &[], false),
-        ("brushed", &brushed, &[], false),
-        ("film", &film, &[], false),
-        ("film on metal", &[metal[0], metal[1], film[0], film[1]], &[], false),
-        ("coat", &coated, &[], false),
-        ("sheen", &[], &sheen, false),
-        ("glass", &glass, &[], false),
-        ("soap", &soap, &[], true),
+        ("metal", METAL, &[], false),
+        ("brushed", BRUSHED, &[], false),
+        ("film", FILM, &[], false),
+        ("film on metal", FILM_ON_METAL, &[], false),
+        ("coat", COATED, &[], false),
+        ("sheen", &[], SHEEN, false),
+        ("glass", GLASS, &[], false),
+        ("soap", SOAP, &[], true),
     ];
     let mut wrong = Vec::new();
     for (name, values, colors, thin_walled) in cases {
