@@ -1,6 +1,7 @@
 //! Tests across crates, in one binary. Each module is one kind of test; data that is not there is skipped with a printed
 //! line, a missing GPU or browser too, unless `HALFVECTOR_REQUIRE_GPU=1` and `HALFVECTOR_REQUIRE_BROWSER=1`.
 
+mod accuracy;
 mod bake;
 mod browser;
 mod device;

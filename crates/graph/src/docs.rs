@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use serde_json::{Value as Json, json};
 
+use crate::figures::{error_in_words, figure};
 use crate::library::Library;
-use crate::method::TERMS;
+use crate::method::{Method, TERMS};
 use crate::node_def::{Default, Input, NodeDef};
 use crate::value::{ColorSpace, SocketType, Value};
 
@@ -109,18 +110,28 @@ fn default_text(default: &Default) -> String {
 
 /// All terms and their methods.
 pub fn methods_markdown() -> String {
-    let mut out =
-        String::from("# Methods\n\nChosen with `--method TERM=NAME`; the first of each term is the default.\n");
+    let mut out = String::from(
+        "# Methods\n\nChosen with `--method TERM=NAME`; the first of each term is the default. Errors are rms, as measured; times on the CPU are \
+         beside the default's; instructions are those of one plain shader's fragment stage with the method. What was measured, and \
+         how, stands in docs/accuracy.md.\n",
+    );
     for term in TERMS {
         let _ = write!(
             out,
-            "\n## {}\n\n{}. The report uses `{}`.\n\n| method | source |\n|---|---|\n",
+            "\n## {}\n\n{}. The report uses `{}`.\n\n| method | error | time | instructions | source |\n|---|---|---|---|---|\n",
             term.name,
             capital(term.help),
             term.report
         );
         for method in term.methods {
-            let _ = writeln!(out, "| `{}` | {} |", method.name, cell(method.source));
+            let figure = figure(term.name, method.name);
+            let error = figure.map_or(String::new(), error_in_words);
+            let time = figure.and_then(|figure| figure.time_beside_default);
+            let time = time.map_or(String::new(), |time| format!("{time:.2}"));
+            let instructions = figure.and_then(|figure| figure.instructions);
+            let instructions = instructions.map_or(String::new(), |count| count.to_string());
+            let source = cell(method.source);
+            let _ = writeln!(out, "| `{}` | {error} | {time} | {instructions} | {source} |", method.name);
         }
     }
     out
@@ -175,17 +186,29 @@ fn input_json(input: &Input) -> Json {
     })
 }
 
-/// `{"methods": [{"term", "help", "default", "report", "methods": [{"name", "source"}]}]}`.
+/// `{"methods": [{"term", "help", "default", "report", "methods": [{"name", "source", "figures"}]}]}`; figures are null where
+/// the method was not measured, else `{"error_rms", "error_max", "unit", "time_beside_default", "instructions", "gpu_ns",
+/// "bytes", "inputs"}`; see [`crate::figures::Figure`].
 pub fn methods_json() -> Json {
     let terms: Vec<Json> = TERMS
         .iter()
         .map(|term| {
             let methods: Vec<Json> =
-                term.methods.iter().map(|method| json!({"name": method.name, "source": method.source})).collect();
+                term.methods.iter().map(|method| method_json(term.name, method)).collect();
             json!({"term": term.name, "help": term.help, "default": term.methods[0].name, "report": term.report, "methods": methods})
         })
         .collect();
     json!({ "methods": terms })
+}
+
+fn method_json(term: &str, method: &Method) -> Json {
+    let figures = figure(term, method.name).map(|figure| {
+        json!({
+            "error_rms": figure.error_rms, "error_max": figure.error_max, "unit": figure.unit,
+            "time_beside_default": figure.time_beside_default, "instructions": figure.instructions, "gpu_ns": figure.gpu_ns, "bytes": figure.bytes, "inputs": figure.inputs,
+        })
+    });
+    json!({"name": method.name, "source": method.source, "figures": figures})
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ pub mod context;
 pub mod docs;
 pub mod document;
 pub mod edit;
+pub mod figures;
 pub mod file;
 pub mod flatten;
 pub mod group;

@@ -6,7 +6,8 @@ use std::time::Duration;
 use crate::error::RenderError;
 
 /// What the device can do beyond WebGPU's core, as far as it is used here.
-const WANTED: wgpu::Features = wgpu::Features::FLOAT32_BLENDABLE.union(wgpu::Features::FLOAT32_FILTERABLE);
+const WANTED: wgpu::Features =
+    wgpu::Features::FLOAT32_BLENDABLE.union(wgpu::Features::FLOAT32_FILTERABLE).union(wgpu::Features::TIMESTAMP_QUERY);
 
 /// How long a callback may take that is due.
 const CALL_BACK: Duration = Duration::from_secs(10);

@@ -13,6 +13,7 @@ mod kept;
 mod mesh;
 mod program;
 mod renderer;
+mod stopwatch;
 mod target;
 mod texture;
 

@@ -16,6 +16,7 @@ use crate::cache::{Cache, Lit};
 use crate::device::Gpu;
 use crate::draws::{Wanted, prepare};
 use crate::error::RenderError;
+use crate::stopwatch::Stopwatch;
 use crate::target::TILE_EDGE;
 
 /// Draws scenes on one GPU.
@@ -104,7 +105,7 @@ impl Renderer {
             progress(done);
             true
         };
-        let picture = self.draw(&mut Cache::default(), scene, lit, options, go_on)?;
+        let picture = self.draw(&mut Cache::default(), scene, lit, options, go_on, None)?;
         Ok(picture.unwrap_or_else(|| Picture::clear(options.width, options.height)))
     }
 
@@ -123,12 +124,32 @@ impl Renderer {
         go_on: impl FnMut(f32) -> bool,
     ) -> Result<Option<Picture>, RenderError> {
         let lit = environment.map(|baked| Lit { baked, keeper: Some(baked) });
-        let drawn = self.draw(cache, scene, lit, options, go_on);
+        let drawn = self.draw(cache, scene, lit, options, go_on, None);
         match &drawn {
             Err(error) if error.is_of_device() => cache.clear(),
             _ => cache.end(),
         }
         drawn
+    }
+
+    /// The same picture with the device's own time for it [s], from the first vertex to the last pixel, without what the CPU
+    /// does; none where the device has no clock.
+    ///
+    /// # Errors
+    /// As for [`Renderer::render`].
+    pub fn render_timed(
+        &self,
+        cache: &mut Cache,
+        scene: &Scene,
+        environment: Option<&Arc<BakedEnvironment>>,
+        options: &RenderOptions,
+    ) -> Result<(Picture, Option<f64>), RenderError> {
+        let lit = environment.map(|baked| Lit { baked, keeper: Some(baked) });
+        let mut watch = Stopwatch::new(&self.gpu);
+        let picture = self.draw(cache, scene, lit, options, |_| true, watch.as_mut())?;
+        cache.end();
+        let picture = picture.unwrap_or_else(|| Picture::clear(options.width, options.height));
+        Ok((picture, watch.map(|watch| watch.total)))
     }
 
     fn draw(
@@ -138,6 +159,7 @@ impl Renderer {
         environment: Option<Lit<'_>>,
         options: &RenderOptions,
         mut go_on: impl FnMut(f32) -> bool,
+        mut watch: Option<&mut Stopwatch>,
     ) -> Result<Option<Picture>, RenderError> {
         cache.begin();
         let gpu = &self.gpu;
@@ -200,7 +222,7 @@ impl Renderer {
                 }
                 let (columns, rows) = (tile.width * side, tile.height * side);
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                let mut pass = target.pass(&mut encoder, clear);
+                let mut pass = target.pass(&mut encoder, clear, watch.as_deref().map(Stopwatch::writes));
                 pass.set_viewport(0.0, 0.0, columns as f32, rows as f32, 0.0, 1.0);
                 draws.draw_solid(&mut pass);
                 if let Some(sky) = &sky {
@@ -208,7 +230,14 @@ impl Renderer {
                 }
                 draws.draw_blended(&mut pass);
                 drop(pass);
-                target.read(gpu, encoder, columns, rows)
+                if let Some(watch) = watch.as_deref() {
+                    watch.resolve(&mut encoder);
+                }
+                let samples = target.read(gpu, encoder, columns, rows)?;
+                if let Some(watch) = watch.as_deref_mut() {
+                    watch.add(gpu)?;
+                }
+                Ok(samples)
             })?;
             picture.resolve(tile, side, &samples);
             let is_last = number + 1 == tiles.len();

@@ -49,8 +49,13 @@ impl Target {
         }
     }
 
-    /// Begins the pass that clears the target and draws everything.
-    pub(crate) fn pass<'e>(&self, encoder: &'e mut wgpu::CommandEncoder, clear: [f32; 4]) -> wgpu::RenderPass<'e> {
+    /// Begins the pass that clears the target and draws everything; it may be timed.
+    pub(crate) fn pass<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+        clear: [f32; 4],
+        timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) -> wgpu::RenderPass<'e> {
         let [r, g, b, a] = clear.map(f64::from);
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("scene"),
@@ -68,7 +73,7 @@ impl Target {
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
                 stencil_ops: None,
             }),
-            timestamp_writes: None,
+            timestamp_writes,
             occlusion_query_set: None,
             multiview_mask: None,
         })

@@ -12,10 +12,12 @@ pub enum Cost {
     Call,
     /// Memory that is read.
     Bytes,
+    /// Instructions of a whole shader.
+    Instructions,
 }
 
 impl Cost {
-    const ALL: [Cost; 3] = [Cost::Batch, Cost::Call, Cost::Bytes];
+    const ALL: [Cost; 4] = [Cost::Batch, Cost::Call, Cost::Bytes, Cost::Instructions];
 
     /// Of a row, where it has this kind.
     pub fn of(self, row: &Row) -> Option<f64> {
@@ -23,6 +25,7 @@ impl Cost {
             Cost::Batch => row.cost_batch_ns,
             Cost::Call => row.cost_ns,
             Cost::Bytes => row.bytes.map(|bytes| bytes as f64),
+            Cost::Instructions => row.instructions.map(|count| count as f64),
         }
     }
 
@@ -32,7 +35,13 @@ impl Cost {
             Cost::Batch => "time of one element of a batch [ns]",
             Cost::Call => "time of one call [ns]",
             Cost::Bytes => "memory read [bytes]",
+            Cost::Instructions => "instructions of a whole fragment stage",
         }
+    }
+
+    /// Whether it is a time: times are as sure as their spread says, what is counted is exact.
+    pub fn is_time(self) -> bool {
+        matches!(self, Cost::Batch | Cost::Call)
     }
 
     /// How it was measured.
@@ -41,6 +50,9 @@ impl Cost {
             Cost::Batch => "Time: one element of a batch on one core; the median of interleaved runs after a warm-up.",
             Cost::Call => "Time: one call after the other on one core; the median of interleaved runs after a warm-up.",
             Cost::Bytes => "Memory: what the method reads, counted and not timed.",
+            Cost::Instructions => {
+                "Instructions: SPIR-V of a whole fragment stage with the method, counted and not timed."
+            }
         }
     }
 }
@@ -61,7 +73,9 @@ pub enum Unit {
 impl Unit {
     /// Of the errors on a domain.
     pub fn of(domain: &str) -> Unit {
-        let has = |words: [&str; 2]| words.iter().any(|word| domain.contains(word));
+        // What stands before the last semicolon are the inputs, which have units of their own.
+        let said = domain.rsplit(';').next().unwrap_or(domain);
+        let has = |words: [&str; 2]| words.iter().any(|word| said.contains(word));
         if has(["degrees", "in deg"]) {
             Unit::Degrees
         } else if has(["ulps", "ulp of"]) {
@@ -201,7 +215,7 @@ pub fn mark_pareto(rows: &mut [Row]) {
 }
 
 fn figure(cost: Cost, row: &Row) -> Option<(f64, f64, Option<f64>)> {
-    let spread = if cost == Cost::Bytes { Some(0.0) } else { row.cost_spread };
+    let spread = if cost.is_time() { row.cost_spread } else { Some(0.0) };
     Some((row.error_rms?, cost.of(row)?, spread))
 }
 
@@ -240,7 +254,7 @@ fn comparison<'a>(rows: &'a [Row], cost: Cost, groups: &[Vec<usize>]) -> Compari
             front: false,
         });
     }
-    let spread = |entry: &Entry<'_>| if cost == Cost::Bytes { Some(0.0) } else { entry.row.cost_spread };
+    let spread = |entry: &Entry<'_>| if cost.is_time() { entry.row.cost_spread } else { Some(0.0) };
     let figures: Vec<_> = entries.iter().map(|entry| (entry.rms, entry.cost, spread(entry))).collect();
     for (entry, front) in entries.iter_mut().zip(front(&figures)) {
         entry.front = front;

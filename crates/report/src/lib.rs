@@ -15,6 +15,7 @@ pub mod error;
 pub mod page;
 pub mod part;
 pub mod plot;
+pub mod publish;
 mod report;
 mod row;
 mod terms;

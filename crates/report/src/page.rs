@@ -186,7 +186,7 @@ fn figure(comparison: &Comparison<'_>, page: &mut String) {
         .filter_map(|entry| entry.row.cost_spread)
         .fold(None, |most: Option<f64>, x| Some(most.map_or(x, |most| most.max(x))));
     let sure = match spread {
-        Some(spread) if comparison.cost != Cost::Bytes => {
+        Some(spread) if comparison.cost.is_time() => {
             format!(" Half of the runs lie within ±{} % of it, or less.", words::number(100.0 * spread))
         }
         _ => String::new(),
@@ -223,7 +223,8 @@ fn cell(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
 
 fn table(comparison: &Comparison<'_>, page: &mut String) {
     let has = |some: fn(&Row) -> bool| comparison.entries.iter().any(|entry| some(entry.row));
-    let instructions = has(|row| row.instructions.is_some());
+    let instructions = comparison.cost != Cost::Instructions && has(|row| row.instructions.is_some());
+    let device = has(|row| row.gpu_ns.is_some());
     let bytes = comparison.cost != Cost::Bytes && has(|row| row.bytes.is_some());
     let cheapest = comparison.entries.iter().map(|entry| entry.cost).fold(f64::INFINITY, f64::min);
     page.push_str(
@@ -231,7 +232,7 @@ fn table(comparison: &Comparison<'_>, page: &mut String) {
          <th class=\"n\">largest error</th>",
     );
     let _ = write!(page, "<th class=\"n\">{}</th><th class=\"n\">× cheapest</th>", short(comparison.cost));
-    for (there, name) in [(instructions, "instructions"), (bytes, "memory")] {
+    for (there, name) in [(instructions, "instructions"), (device, "pixel on the device"), (bytes, "memory")] {
         if there {
             let _ = write!(page, "<th class=\"n\">{name}</th>");
         }
@@ -248,6 +249,9 @@ fn table(comparison: &Comparison<'_>, page: &mut String) {
         page.push_str(&cell(Some(entry.cost / cheapest.max(f64::MIN_POSITIVE)), |x| format!("{x:.1}")));
         if instructions {
             page.push_str(&cell(row.instructions.map(|x| x as f64), |x| format!("{x:.0}")));
+        }
+        if device {
+            page.push_str(&cell(row.gpu_ns, |x| words::cost(x, Cost::Call)));
         }
         if bytes {
             page.push_str(&cell(row.bytes.map(|x| x as f64), |x| words::cost(x, Cost::Bytes)));
@@ -266,6 +270,7 @@ fn short(cost: Cost) -> &'static str {
         Cost::Batch => "batch element",
         Cost::Call => "one call",
         Cost::Bytes => "memory",
+        Cost::Instructions => "instructions",
     }
 }
 
@@ -283,6 +288,7 @@ fn plain_table(rows: &[&Row], page: &mut String) {
         ("one call", has(|row| row.cost_ns.is_some())),
         ("memory", has(|row| row.bytes.is_some())),
         ("instructions", has(|row| row.instructions.is_some())),
+        ("pixel on the device", has(|row| row.gpu_ns.is_some())),
     ];
     page.push_str(
         "<div class=\"scroll\"><table><thead><tr><th>method</th><th class=\"n\">rms error</th>\
@@ -302,6 +308,7 @@ fn plain_table(rows: &[&Row], page: &mut String) {
             cell(row.cost_ns, |x| words::cost(x, Cost::Call)),
             cell(row.bytes.map(|x| x as f64), |x| words::cost(x, Cost::Bytes)),
             cell(row.instructions.map(|x| x as f64), |x| format!("{x:.0}")),
+            cell(row.gpu_ns, |x| words::cost(x, Cost::Call)),
         ];
         for (cell, _) in cells.iter().zip(&columns).filter(|(_, (_, there))| *there) {
             page.push_str(cell);
@@ -347,14 +354,22 @@ fn rounding(report: &Report, page: &mut String) {
 }
 
 fn foot(report: &Report, page: &mut String) {
+    let device = report.rows.iter().find_map(|row| row.gpu.as_deref()).map_or(String::new(), |name| {
+        format!(
+            "<p><b>Pixel on the device</b> is the time of that shader for one pixel by the timestamps of {}, the shortest of \
+             several turns.</p>",
+            escaped(name)
+        )
+    });
     let _ = write!(
         page,
         "<h2 id=\"how\">How it is measured</h2>\n<section class=\"card\">\n<p><b>Errors</b> are differences from a truth in 64-bit \
          arithmetic: exact equations, converged quadrature or a sum over every texel, as each figure says. The points are the \
          same in every run, so the errors are, too.</p>\n<p><b>Times</b> are of {}. The methods of a figure run in turns, so \
          that a slow moment meets all of them alike; the first turn warms up and is not counted; what stands is the median. \
-         Read them as ratios within a figure: another machine has other nanoseconds.</p>\n<p><b>Instructions</b> are those that the \
-         method adds to the fragment stage in SPIR-V, before a driver optimises it.</p>\n<p><b>The front</b>: a method \
+         Read them as ratios within a figure: another machine has other nanoseconds.</p>\n<p><b>Instructions</b> are those of \
+         the whole fragment stage of one plain shader with the method, in SPIR-V as naga writes it, before a driver optimises it; \
+         called functions count where they are called. What a method adds is its difference from another method.</p>{device}\n<p><b>The front</b>: a method \
          is marked when no other on the same inputs is cheaper and at least as accurate. Times within their spread count as \
          alike.</p>\n<p>The same figures stand in <code>report.json</code> and in one CSV file for each part.</p>\n</section>\n\
          </main>\n<footer>Made by <code>halfvector report</code> on {}.</footer>\n<script>\n{SORT}</script>\n</body>\n</html>\n",

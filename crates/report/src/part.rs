@@ -6,7 +6,9 @@ pub mod ibl;
 pub mod lobes;
 pub mod maps;
 pub mod mips;
+mod multiple;
 pub mod precision;
+pub mod shaders;
 mod split_sum;
 
 use crate::{Effort, Row};
@@ -23,6 +25,7 @@ impl Part {
     /// About how long it takes on two cores [s]; parts that are not named here are quick.
     pub fn seconds(&self, effort: Effort) -> f64 {
         let [quick, full] = match self.name {
+            "shaders" => [20.0, 60.0],
             "brdf" => [0.3, 20.0],
             "energy" => [2.0, 10.0],
             "ibl" => [27.0, 400.0],
@@ -37,6 +40,7 @@ impl Part {
 
 /// All parts, in the order shown.
 pub const PARTS: &[Part] = &[
+    Part { name: "shaders", rows: shaders::rows },
     Part { name: "brdf", rows: brdf::rows },
     Part { name: "energy", rows: energy::rows },
     Part { name: "maps", rows: maps::rows },

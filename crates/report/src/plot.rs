@@ -240,7 +240,7 @@ fn marks([low, high]: [f64; 2]) -> Vec<f64> {
 fn cost_mark(x: f64, cost: Cost) -> String {
     match cost {
         Cost::Bytes => words::cost(x, cost),
-        _ => plain(x),
+        Cost::Batch | Cost::Call | Cost::Instructions => plain(x),
     }
 }
 

@@ -29,9 +29,9 @@ pub struct Row {
     pub cost_batch_ns: Option<f64>,
     /// Half the distance of the quartiles of the times, over their median: how sure the time is.
     pub cost_spread: Option<f64>,
-    /// SPIR-V instructions of the method in a shader.
+    /// SPIR-V instructions of a whole fragment stage with the method; see [`crate::part::shaders`].
     pub instructions: Option<u64>,
-    /// Time of one call on the device [ns].
+    /// Time of a pixel of that shader on the device [ns]: the shortest of several turns.
     pub gpu_ns: Option<f64>,
     /// The device's name; a software rasteriser has its own name, too.
     pub gpu: Option<String>,

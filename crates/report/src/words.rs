@@ -59,6 +59,7 @@ pub fn cost(x: f64, kind: Cost) -> String {
         Cost::Bytes if x >= 1e6 => format!("{} MB", number(x / 1e6)),
         Cost::Bytes if x >= 1e4 => format!("{} kB", number(x / 1e3)),
         Cost::Bytes => format!("{x:.0} bytes"),
+        Cost::Instructions => format!("{x:.0} instructions"),
         _ if x >= 1e6 => format!("{} ms", number(x / 1e6)),
         _ if x >= 1e4 => format!("{} µs", number(x / 1e3)),
         _ => format!("{} ns", number(x)),
@@ -78,8 +79,8 @@ pub fn finding(comparison: &Comparison<'_>) -> String {
     }
     let ratio = best.cost / cheapest.cost;
     let saves = match comparison.cost {
-        Cost::Bytes => {
-            format!("takes {} instead of {}", cost(cheapest.cost, Cost::Bytes), cost(best.cost, Cost::Bytes))
+        kind if !kind.is_time() => {
+            format!("takes {} instead of {}", cost(cheapest.cost, kind), cost(best.cost, kind))
         }
         _ => format!("is {} times as fast", if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") }),
     };

@@ -17,7 +17,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("crates/reference", &["brdf", "maps", "ibl", "graph", "scene", "codegen", "interp", "raster"]),
     ("crates/render", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
     ("crates/web", &["graph", "codegen", "scene", "ibl", "maps", "shaders"]),
-    ("crates/report", &["brdf", "maps", "ibl", "graph", "codegen", "scene", "render", "shaders"]),
+    (
+        "crates/report",
+        &["brdf", "maps", "ibl", "graph", "codegen", "scene", "raster", "reference", "render", "shaders"],
+    ),
     (
         "editor",
         &[

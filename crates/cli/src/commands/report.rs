@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use halfvector_report::part::shaders;
 use halfvector_report::{Effort, PARTS, Report, compare, mark_pareto, page, write};
 
 use crate::failure::{FOUND, Failure};
@@ -48,10 +49,13 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
         bar.set_position((1000.0 * (1.0 - left / all)) as u64);
         let mut rows = (part.rows)(effort);
         bar.finish_and_clear();
-        mark_pareto(&mut rows);
-        write_file(&args.output.join(format!("{}.csv", part.name)), write::csv(&rows).as_bytes())?;
         note(format_args!("{}: {} rows", part.name, rows.len()));
+        let first = report.rows.len();
         report.rows.append(&mut rows);
+        shaders::share(&mut report.rows);
+        let rows = &mut report.rows[first..];
+        mark_pareto(rows);
+        write_file(&args.output.join(format!("{}.csv", part.name)), write::csv(rows).as_bytes())?;
         report.parts.push(part.name.to_owned());
         write_file(&args.output.join("report.json"), report.to_json().as_bytes())?;
         write_file(&args.output.join("index.html"), page::html(&report).as_bytes())?;

@@ -1,9 +1,11 @@
-//! The split sum's pair: tables of several sizes and layouts, and analytic fits, against quadrature.
+//! The split sum's pair: tables of several sizes and layouts, and analytic fits, against quadrature; and what the light that
+//! bounces more than once adds to it.
 
 use halfvector_brdf::albedo::{directional_albedo_ggx, directional_albedo_ggx_with, gauss_legendre};
 use halfvector_brdf::dfg::{dfg_fit, dfg_karis};
 use halfvector_brdf::ggx::v_smith_ggx_correlated;
 
+use super::multiple;
 use crate::error::Errors;
 use crate::timing::interleaved;
 use crate::{Effort, Row};
@@ -65,6 +67,7 @@ pub fn rows(effort: Effort) -> Vec<Row> {
         let value = |v: f64, r: f64| form(v as f32, r as f32).map(f64::from);
         rows.extend(measured(name, &points, value, |row| row.cost_ns = Some(seconds * 1e9 / arguments.len() as f64)));
     }
+    rows.extend(multiple::rows(effort));
     rows
 }
 

@@ -1,0 +1,200 @@
+//! What the project shows of one committed run: `docs/accuracy.md`, two plots, the passage of the README, and the table of
+//! methods that `halfvector methods` prints.
+
+use std::fmt::Write;
+
+use halfvector_graph::method::TERMS;
+
+use crate::comparison::{Budget, Comparison, Cost, Unit, comparisons};
+use crate::plot::{alone, scatter};
+use crate::{Report, Row, words};
+
+/// Where the run stands that everything here is made of.
+pub const RUN: &str = "docs/accuracy.json";
+
+/// Terms whose first plot is shown in the README.
+const SHOWN: [&str; 2] = ["v", "level_map"];
+
+/// Where the README's passage begins and ends.
+pub const README_MARKS: [&str; 2] =
+    ["<!-- figures of docs/accuracy.json, written by a test -->\n", "<!-- end of figures -->\n"];
+
+/// The files, by their places in the project.
+pub fn files(report: &Report) -> Vec<(String, String)> {
+    let comparisons = comparisons(&report.rows);
+    let mut files = vec![
+        ("docs/accuracy.md".to_owned(), page(report, &comparisons)),
+        ("crates/graph/data/methods.csv".to_owned(), methods_csv(&comparisons, &report.rows)),
+    ];
+    files.extend(shown(&comparisons).map(|comparison| (picture(comparison.term), alone(&scatter(comparison)))));
+    files
+}
+
+fn picture(term: &str) -> String {
+    format!("docs/images/speed-against-error-{}.svg", term.replace('_', "-"))
+}
+
+fn shown<'a, 'r>(comparisons: &'a [Comparison<'r>]) -> impl Iterator<Item = &'a Comparison<'r>> {
+    SHOWN.iter().filter_map(|term| comparisons.iter().find(|comparison| comparison.term == *term))
+}
+
+/// The passage of the README between its marks.
+pub fn readme(report: &Report) -> String {
+    let mut text = String::new();
+    for comparison in shown(&comparisons(&report.rows)) {
+        let (finding, help) = (words::finding(comparison), crate::terms::help(comparison.term));
+        let picture = picture(comparison.term);
+        let _ = write!(
+            text,
+            "**`{}`, {help}:** {finding}.\n\n![{}]({picture})\n\n",
+            comparison.term,
+            finding.replace('`', "")
+        );
+    }
+    let _ = write!(
+        text,
+        "Down and to the left is better; blue methods are beaten by no other. {}, {}.\nEvery term, and what to choose on a phone, \
+         a desktop or for film: [`docs/accuracy.md`](docs/accuracy.md).\n",
+        report.machine, report.date
+    );
+    text
+}
+
+fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
+    let mut page = format!(
+        "# Accuracy and speed\n\nWhat each approximation of Halfvector costs, and how wrong it is: errors against truth in double \
+         precision, times as medians of interleaved runs, to be read as ratios. Measured on {}, {}.\n\nThis page is made of \
+         [`accuracy.json`](accuracy.json). To renew both:\n\n```sh\ncargo run --release -- report -o out/report\ncp \
+         out/report/report.json docs/accuracy.json\nHALFVECTOR_BLESS=1 cargo test --workspace --test all -- accuracy\n```\n\n\
+         `out/report/index.html` is the same with plots, inputs and where each error is largest.\n\n## What to choose\n\nThe \
+         cheapest method whose rms error is within {} % ({}° for angles) for **mobile** and within {} % ({}°) for **desktop**; the \
+         most accurate for **film**. In brackets: no method keeps the limit, this is the most accurate.\n\n\
+         | term | inputs | mobile | desktop | film |\n|---|---|---|---|---|\n",
+        report.machine,
+        report.date,
+        100.0 * Unit::Relative.limit(Budget::Mobile),
+        Unit::Degrees.limit(Budget::Mobile),
+        100.0 * Unit::Relative.limit(Budget::Desktop),
+        Unit::Degrees.limit(Budget::Desktop),
+    );
+    for comparison in comparisons {
+        let chosen = Budget::ALL.map(|budget| {
+            let entry = comparison.choice(budget);
+            let text = format!("`{}` {}", entry.row.method, words::error(entry.rms, comparison.unit));
+            if comparison.keeps(entry, budget) { text } else { format!("({text})") }
+        });
+        let inputs = words::inputs(&comparison.domains);
+        let _ = writeln!(page, "| `{}` | {} | {} |", comparison.term, cell(&inputs), chosen.join(" | "));
+    }
+    for comparison in comparisons {
+        let _ = write!(
+            page,
+            "\n## {}: {}\n\n{}. {}. {}\n\n| method | rms error | largest error | {} | beside the cheapest | unbeaten |\n\
+             |---|---|---|---|---|---|\n",
+            comparison.term,
+            words::finding(comparison),
+            words::inputs(&comparison.domains),
+            words::against(comparison.domains[0]),
+            comparison.cost.measured(),
+            match comparison.cost {
+                Cost::Bytes => "memory",
+                Cost::Instructions => "instructions",
+                Cost::Batch | Cost::Call => "time",
+            },
+        );
+        let cheapest = comparison.entries.iter().map(|entry| entry.cost).fold(f64::INFINITY, f64::min);
+        for entry in &comparison.entries {
+            let error = |x: Option<f64>| x.map_or(String::new(), |x| words::error(x, comparison.unit));
+            let _ = writeln!(
+                page,
+                "| `{}` | {} | {} | {} | {:.1} | {} |",
+                cell(&entry.row.method),
+                error(Some(entry.rms)),
+                error(entry.row.error_max),
+                words::cost(entry.cost, comparison.cost),
+                entry.cost / cheapest.max(f64::MIN_POSITIVE),
+                if entry.front { "yes" } else { "" }
+            );
+        }
+    }
+    precision(report, &mut page);
+    page
+}
+
+/// Forms that give what is no number in some format.
+fn precision(report: &Report, page: &mut String) {
+    let rows: Vec<&Row> = report.rows.iter().filter(|row| row.term == "precision" && row.error_max.is_some()).collect();
+    if rows.is_empty() {
+        return;
+    }
+    page.push_str(
+        "\n## Precision on hard cases\n\nCosines from 1e-6, roughness from 0.0001; on the CPU, f16 with each operation rounded. The \
+         error is in units in the last place of the format; `lost` counts results that are NaN or infinite although the \
+         format holds the right one.\n\n| form and format | rms [ulp] | largest [ulp] | lost | first lost |\n|---|---|---|---|---|\n",
+    );
+    for row in rows.iter().filter(|row| !row.method.ends_with("f64")) {
+        let number = |x: Option<f64>| x.map_or(String::new(), words::number);
+        let _ = writeln!(
+            page,
+            "| `{}` | {} | {} | {} | {} |",
+            row.method,
+            number(row.error_rms),
+            number(row.error_max),
+            row.not_finite.unwrap_or(0),
+            cell(&words::shortened(row.first_failure.as_deref().unwrap_or("")))
+        );
+    }
+}
+
+/// Text in a cell of a Markdown table.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|").replace('\n', " ")
+}
+
+/// One line for each method of the list that was measured: its worst error, and its cost.
+fn methods_csv(comparisons: &[Comparison<'_>], rows: &[Row]) -> String {
+    let mut text =
+        "term,method,error_rms,error_max,unit,time_beside_default,instructions,gpu_ns,bytes,inputs\n".to_owned();
+    for term in TERMS {
+        let named = |row: &Row, method: &str| row.method == method || row.method.split(',').next() == Some(method);
+        for method in term.methods {
+            let found = comparisons.iter().filter(|comparison| comparison.term == term.name).find_map(|comparison| {
+                Some((comparison, comparison.entries.iter().find(|entry| named(entry.row, method.name))?))
+            });
+            let own = || rows.iter().filter(|row| row.term == term.name && named(row, method.name));
+            let instructions = own().find_map(|row| row.instructions);
+            if found.is_none() && instructions.is_none() {
+                continue;
+            }
+            let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.3e}"));
+            let beside = found.filter(|(comparison, _)| comparison.cost.is_time()).and_then(|(comparison, entry)| {
+                let default = comparison.entries.iter().find(|entry| named(entry.row, term.methods[0].name))?;
+                Some(entry.cost / default.cost)
+            });
+            let unit = found.map_or("", |(comparison, _)| match comparison.unit {
+                Unit::Relative => "relative",
+                Unit::Degrees => "degrees",
+                Unit::Ulps => "ulp",
+                Unit::Plain => "absolute",
+            });
+            let bytes = found.and_then(|(_, entry)| {
+                own().filter(|row| row.method == entry.row.method).filter_map(|row| row.bytes).max()
+            });
+            let inputs = found.map_or(String::new(), |(comparison, _)| words::inputs(&comparison.domains));
+            let _ = writeln!(
+                text,
+                "{},{},{},{},{unit},{},{},{},{},\"{}\"",
+                term.name,
+                method.name,
+                number(found.map(|(_, entry)| entry.rms)),
+                number(found.and_then(|(_, entry)| entry.row.error_max)),
+                beside.map_or(String::new(), |x| format!("{x:.2}")),
+                instructions.map_or(String::new(), |x| x.to_string()),
+                own().find_map(|row| row.gpu_ns).map_or(String::new(), |x| format!("{x:.1}")),
+                bytes.map_or(String::new(), |x| x.to_string()),
+                inputs.replace('"', "'")
+            );
+        }
+    }
+    text
+}

@@ -1,0 +1,126 @@
+//! What the project says of its accuracy is what was measured. `HALFVECTOR_BLESS=1` writes it anew.
+//!
+//! `docs/accuracy.json` is a run of `halfvector report`; the page, the plots, the README's passage and the table of methods
+//! are made of it. `crates/report/data/errors.csv` is the baseline of errors: they come out the same on every run.
+
+use std::collections::HashMap;
+
+use halfvector_report::part::shaders::counted_rows;
+use halfvector_report::publish::{README_MARKS, RUN, files, readme};
+use halfvector_report::{Effort, PARTS, Report, Row};
+
+use crate::support::{bless, root};
+
+const BASELINE: &str = "crates/report/data/errors.csv";
+
+/// Errors may differ by this part, for the elementary functions of another system, or by this much.
+const PART: f64 = 0.05;
+const FLOOR: f64 = 1e-9;
+
+/// Instructions may differ by this part before they are to be counted anew.
+const INSTRUCTIONS: f64 = 0.1;
+
+fn read(path: &str) -> String {
+    std::fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+fn write(path: &str, text: &str) {
+    std::fs::write(root().join(path), text).unwrap_or_else(|error| panic!("{path}: {error}"));
+}
+
+/// Instructions are counted and not measured: they are renewed without another run.
+fn committed_run() -> Report {
+    let mut report = Report::from_json(&read(RUN)).expect("a report");
+    let known = |row: &Row, counted: &Row| row.term == counted.term && row.method == counted.method;
+    let counted = counted_rows();
+    for row in &mut report.rows {
+        let name = row.method.split(',').next().unwrap_or_default();
+        let now = counted.iter().find(|counted| counted.term == row.term && counted.method == name);
+        let (Some(now), Some(before)) = (now.and_then(|now| now.instructions), row.instructions) else { continue };
+        if bless() {
+            row.instructions = Some(now);
+            continue;
+        }
+        let change = (now as f64 / before as f64 - 1.0).abs();
+        assert!(
+            change <= INSTRUCTIONS,
+            "{} {}: {now} instructions, {RUN} says {before}; HALFVECTOR_BLESS=1 counts them anew",
+            row.term,
+            row.method
+        );
+    }
+    let missing = counted.iter().find(|counted| !report.rows.iter().any(|row| known(row, counted)));
+    assert!(missing.is_none(), "{RUN} has no row of {missing:?}; it says how to renew it in docs/accuracy.md");
+    if bless() {
+        write(RUN, &report.to_json());
+    }
+    report
+}
+
+#[test]
+fn pages_and_tables_are_made_of_the_committed_run() {
+    let report = committed_run();
+    for (path, text) in files(&report) {
+        if bless() {
+            write(&path, &text);
+        }
+        assert!(read(&path) == text, "{path} differs from {RUN}; HALFVECTOR_BLESS=1 writes it anew");
+    }
+    let page = read("README.md");
+    let [begin, end] = README_MARKS.map(|mark| page.find(mark).unwrap_or_else(|| panic!("README.md: no {mark:?}")));
+    let begin = begin + README_MARKS[0].len();
+    if bless() {
+        write("README.md", &format!("{}{}{}", &page[..begin], readme(&report), &page[end..]));
+        return;
+    }
+    assert!(page[begin..end] == readme(&report), "README.md differs from {RUN}; HALFVECTOR_BLESS=1 writes it anew");
+}
+
+/// Every part whose errors come quickly; that of light is measured by its crate's own tests.
+#[test]
+fn errors_are_those_of_the_baseline() {
+    let rows: Vec<Row> =
+        PARTS.iter().filter(|part| is_quick(part.name)).flat_map(|part| (part.rows)(Effort::Quick)).collect();
+    if bless() {
+        write(BASELINE, &baseline(&rows));
+    }
+    let found: HashMap<String, &Row> = rows.iter().map(|row| (name(row), row)).collect();
+    for line in read(BASELINE).lines().skip(1) {
+        let (figures, name) = line
+            .split_once(',')
+            .and_then(|(rms, rest)| {
+                let (max, name) = rest.split_once(',')?;
+                Some(([rms, max].map(|x| x.parse::<f64>().unwrap_or(f64::INFINITY)), name))
+            })
+            .unwrap_or_else(|| panic!("{BASELINE}: {line:?}"));
+        let row =
+            found.get(name).unwrap_or_else(|| panic!("{name} has no row any more; HALFVECTOR_BLESS=1 takes it out"));
+        let now = [row.error_rms, row.error_max].map(|x| x.unwrap_or(f64::INFINITY));
+        for (what, (now, before)) in ["rms", "largest"].into_iter().zip(now.into_iter().zip(figures)) {
+            let same = now == before || (now - before).abs() <= PART * before.abs() + FLOOR;
+            assert!(same, "{name}: the {what} error is {now:e}, was {before:e}; HALFVECTOR_BLESS=1 takes it as it is");
+        }
+    }
+}
+
+/// The part of light takes half a minute for its truth, that of shaders wants a device.
+fn is_quick(part: &str) -> bool {
+    !["ibl", "shaders"].contains(&part)
+}
+
+fn name(row: &Row) -> String {
+    format!("{} {}: {}", row.term, row.method, row.domain)
+}
+
+fn baseline(rows: &[Row]) -> String {
+    let mut lines: Vec<String> = rows
+        .iter()
+        .filter(|row| row.error_rms.is_some())
+        .map(|row| {
+            let [rms, max] = [row.error_rms, row.error_max].map(|x| x.map_or(String::new(), |x| format!("{x:.6e}")));
+            format!("{rms},{max},{}", name(row))
+        })
+        .collect();
+    lines.sort_by(|a, b| a.splitn(3, ',').nth(2).cmp(&b.splitn(3, ',').nth(2)));
+    format!("error_rms,error_max,row\n{}\n", lines.join("\n"))
+}
