@@ -8,7 +8,7 @@
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use image::error::ImageError;
+use image::error::{ImageError, UnsupportedErrorKind};
 use image::{ColorType, ImageDecoder, ImageFormat, ImageReader};
 use rayon::prelude::*;
 
@@ -144,21 +144,20 @@ impl Decoded {
     /// or damaged.
     pub fn into_color(mut self) -> Result<Noted, DecodeError> {
         let Some(profile) = self.profile else { return Ok(Noted { image: self.image, notes: self.notes }) };
-        let converted = profile.to_srgb(&self.image).map_err(|reason| DecodeError::Profile {
+        let (image, clipped) = profile.to_srgb(self.image).map_err(|reason| DecodeError::Profile {
             format: self.format,
             profile: profile.name().to_owned(),
             reason: reason.to_owned(),
         })?;
-        if let Some(converted) = converted {
-            self.image = converted.image;
-            let clipped = match converted.clipped {
+        if let Some(clipped) = clipped {
+            let clipped = match clipped {
                 0 => String::new(),
                 1 => "; 1 texel lies outside of sRGB and is clipped".to_owned(),
                 count => format!("; {count} texels lie outside of sRGB and are clipped"),
             };
             self.notes.push(format!("converted to sRGB from {}{clipped}", profile.name()));
         }
-        Ok(Noted { image: self.image, notes: self.notes })
+        Ok(Noted { image, notes: self.notes })
     }
 
     /// The image as data: values as they are. A note names the profile, which is not applied.
@@ -174,6 +173,8 @@ impl Decoded {
 ///
 /// 8-bit files keep 8 bits, 16-bit ones 16, float ones (TIFF) their values, with NaN read as 0 and infinities as +-65504.
 /// Fewer bits become 8, palettes their colours.
+///
+/// A JPEG whose scan ends early but that has its end marker is read as far as it goes: its decoder does not tell.
 ///
 /// # Errors
 /// [`DecodeError`] says what is wrong with the bytes. A profile is no error before colours are asked for.
@@ -231,21 +232,24 @@ fn decode_as(format: ImageFormat, bytes: &[u8], limits: Limits) -> Result<Parts,
     let is_stored_as_read = color == ColorType::Rgba8;
     let read_bytes = if is_stored_as_read { 0 } else { channels.count() * sample_bytes };
     let (own_bytes, own_copy) = decoders_own(format, &jpeg, bytes.len());
-    check_size(name, [width, height], read_bytes + 4 * sample_bytes + own_bytes, own_copy, limits)?;
+    let icc = decoder.icc_profile().ok().flatten();
+    // The decoder keeps the profile, too.
+    let profiles = icc.as_ref().map_or(0, |icc| 2 * icc.len());
+    check_size(name, [width, height], read_bytes + 4 * sample_bytes + own_bytes, own_copy + profiles, limits)?;
 
     let is_grey = !channels.has_color();
-    let icc = decoder.icc_profile().ok().flatten();
     let profile = match format {
         ImageFormat::Png => stated::png(bytes, icc.as_deref(), is_grey),
         ImageFormat::Bmp => stated::bmp(bytes),
         ImageFormat::Tga => stated::tga(bytes),
         ImageFormat::Qoi => stated::qoi(bytes),
-        _ => match icc {
-            Some(icc) => Some(Profile::from_icc(&icc, is_grey)),
+        _ => match &icc {
+            Some(icc) => Some(Profile::from_icc(icc, is_grey)),
             None => jpeg.has_profile.then(|| Profile::refused("ICC profile", "it is damaged")),
         },
     };
 
+    drop(icc);
     let count = width as usize * height as usize;
     let read = |buffer: &mut [u8]| decoder.read_image(buffer).map_err(explain);
     let texels = match sample_bytes {
@@ -361,7 +365,13 @@ fn finite(x: f32) -> f32 {
 fn explained(error: ImageError, format: &'static str) -> DecodeError {
     match error {
         ImageError::Limits(_) => DecodeError::Memory { format },
-        ImageError::Unsupported(what) => DecodeError::Unsupported { format, what: what.to_string() },
+        ImageError::Unsupported(what) => {
+            let what = match what.kind() {
+                UnsupportedErrorKind::Color(color) => format!("the colour type {color:?}"),
+                _ => format!("what it holds ({what})"),
+            };
+            DecodeError::Unsupported { format, what }
+        }
         ImageError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
             DecodeError::Truncated { format }
         }

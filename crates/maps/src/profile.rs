@@ -35,12 +35,6 @@ struct Curves {
     rec709_from_file: [[f64; 3]; 3],
 }
 
-/// Texels in sRGB, and how many of them had to be clipped.
-pub(crate) struct Converted {
-    pub(crate) image: Image,
-    pub(crate) clipped: usize,
-}
-
 /// ISO/IEC 15948 (2003), 11.3.3.5: the gAMA value that stands for sRGB, in hundred thousandths.
 const SRGB_GAMMA: u32 = 45_455;
 
@@ -49,6 +43,9 @@ const SRGB_CURVE: [f32; 5] = [2.4, 1.0 / 1.055, 0.055 / 1.055, 1.0 / 12.92, 0.04
 
 /// White, red, green and blue of Rec. 709 as x, y.
 pub(crate) const REC709: [[f64; 2]; 4] = [[0.3127, 0.3290], [0.64, 0.33], [0.30, 0.60], [0.15, 0.06]];
+
+/// The matrix that changes nothing.
+const NEUTRAL: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Profile {
     /// Says sRGB in so many words.
@@ -108,7 +105,6 @@ impl Profile {
         let curves = match profile.color_space {
             DataColorSpace::Gray if is_grey => {
                 let Some(curve) = profile.gray_trc else { return Self::refused(name, "it has no curve") };
-                const NEUTRAL: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
                 Curves { linear_from_file: [curve.clone(), curve.clone(), curve], rec709_from_file: NEUTRAL }
             }
             DataColorSpace::Rgb if profile.is_matrix_shaper() && profile.pcs == DataColorSpace::Xyz => {
@@ -130,6 +126,15 @@ impl Profile {
         if white[1] < 0.01 || across(red, green).abs() < 1e-4 {
             return Self::refused(name, "its primaries are no colours");
         }
+        let linear_from_file = [curve.clone(), curve.clone(), curve];
+        let is_rec709 = |stated: [[f64; 2]; 4]| {
+            let apart = |(a, b): (&f64, &f64)| (a - b).abs() > 1.5e-5;
+            !stated.as_flattened().iter().zip(REC709.as_flattened()).any(apart)
+        };
+        if is_rec709([white, red, green, blue]) {
+            // Exactly: what rounding leaves beside the diagonal would take saturated colours out of the gamut.
+            return Self::checked(name, Curves { linear_from_file, rec709_from_file: NEUTRAL });
+        }
         let xy = |[x, y]: [f64; 2]| Chromaticity::new(x as f32, y as f32);
         let mut profile = ColorProfile::default();
         profile.update_rgb_colorimetry(
@@ -137,7 +142,7 @@ impl Profile {
             ColorPrimaries { red: xy(red), green: xy(green), blue: xy(blue) },
         );
         let rec709_from_file = profile.transform_matrix(&ColorProfile::new_srgb()).v;
-        Self::checked(name, Curves { linear_from_file: [curve.clone(), curve.clone(), curve], rec709_from_file })
+        Self::checked(name, Curves { linear_from_file, rec709_from_file })
     }
 
     /// Finds out whether curves and matrix make sense, and whether they are sRGB's.
@@ -165,42 +170,42 @@ impl Profile {
         self.meaning == Meaning::Srgb
     }
 
-    /// The image with colours in sRGB, of the same depth; `None` where nothing is to be done. 8 and 16 bits are clipped to
-    /// 0..1 and rounded, floats are not. Alpha stays.
+    /// The image with colours in sRGB, of the same depth, and how many texels had to be clipped; `None` where nothing was to be
+    /// done. 8 and 16 bits are clipped to 0..1 and rounded, floats are not. Alpha stays. Nothing is copied.
     ///
     /// # Errors
     /// Why the profile cannot be applied, in words.
-    pub(crate) fn to_srgb(&self, image: &Image) -> Result<Option<Converted>, &str> {
+    pub(crate) fn to_srgb(&self, image: Image) -> Result<(Image, Option<usize>), &str> {
         let curves = match &self.meaning {
-            Meaning::Srgb => return Ok(None),
+            Meaning::Srgb => return Ok((image, None)),
             Meaning::Refused(why) => return Err(why),
             Meaning::Curves(curves) => curves,
         };
         let damaged = "its curves are damaged";
         let is_out = |linear: &[f64; 3]| linear.iter().any(|c| !(-1e-4..=1.0 + 1e-4).contains(c));
-        let (texels, clipped) = match image.texels() {
+        let (width, height, channels) = (image.width(), image.height(), image.channels());
+        let mut texels = image.into_texels();
+        let clipped = match &mut texels {
             Texels::U8(texels) => {
                 let tables = curves.tables::<256>().ok_or(damaged)?;
-                let (texels, clipped) = each(texels, |[r, g, b, a]| {
+                each(texels, |[r, g, b, a]| {
                     let linear = curves.rec709([(0, r), (1, g), (2, b)].map(|(k, c)| tables[k][usize::from(c)]));
                     let [r, g, b] = linear.map(|c| srgb8().code(c as f32));
                     ([r, g, b, a], is_out(&linear))
-                });
-                (Texels::U8(texels), clipped)
+                })
             }
             Texels::U16(texels) => {
                 let tables = curves.tables::<65_536>().ok_or(damaged)?;
-                let (texels, clipped) = each(texels, |[r, g, b, a]| {
+                each(texels, |[r, g, b, a]| {
                     let linear = curves.rec709([(0, r), (1, g), (2, b)].map(|(k, c)| tables[k][usize::from(c)]));
                     let [r, g, b] = srgb_from_linear(linear).map(|c| (c * 65_535.0 + 0.5) as u16);
                     ([r, g, b, a], is_out(&linear))
-                });
-                (Texels::U16(texels), clipped)
+                })
             }
             Texels::F32(_) => return Err("it codes light for integers and the file has floats"),
         };
-        let image = Image::new(image.width(), image.height(), image.channels(), texels).map_err(|_| damaged)?;
-        Ok(Some(Converted { image, clipped }))
+        let image = Image::new(width, height, channels, texels).map_err(|_| damaged)?;
+        Ok((image, Some(clipped)))
     }
 }
 
@@ -208,10 +213,8 @@ impl Curves {
     /// Linear light of N evenly spaced codes of each channel; `None` for a curve that cannot be evaluated.
     fn tables<const N: usize>(&self) -> Option<[Vec<f64>; 3]> {
         let table = |curve: &ToneReprCurve| {
-            let curve = curve.make_linear_evaluator().ok()?;
-            let linear = |code: usize| f64::from(curve.evaluate_value((code as f64 / (N - 1) as f64) as f32));
-            let values: Vec<f64> = (0..N).map(linear).collect();
-            values.iter().all(|x| x.is_finite()).then_some(values)
+            let values: Option<Vec<f64>> = (0..N).map(|code| linear(curve, code as f64 / (N - 1) as f64)).collect();
+            values.filter(|values| values.iter().all(|x| x.is_finite()))
         };
         let [r, g, b] = &self.linear_from_file;
         Some([table(r)?, table(g)?, table(b)?])
@@ -222,10 +225,42 @@ impl Curves {
     }
 }
 
+/// A curve's value at `x` in 0..1; `None` for one of no kind. ISO 15076-1 (2010), 10.6 and 10.18. In f64 here: evaluators
+/// made for speed are wrong at 0.
+fn linear(curve: &ToneReprCurve, x: f64) -> Option<f64> {
+    let power = |base: f64, exponent: f64| base.max(0.0).powf(exponent);
+    Some(match curve {
+        ToneReprCurve::Lut(table) => match table.as_slice() {
+            [] => x,
+            [gamma] => power(x, f64::from(*gamma) / 256.0),
+            table => {
+                let place = x * (table.len() - 1) as f64;
+                let first = (place as usize).min(table.len() - 2);
+                let [a, b] = [table[first], table[first + 1]].map(|code| f64::from(code) / 65_535.0);
+                a + (b - a) * (place - first as f64)
+            }
+        },
+        ToneReprCurve::Parametric(parameters) => {
+            let parameters: Vec<f64> = parameters.iter().map(|&x| f64::from(x)).collect();
+            match *parameters.as_slice() {
+                [g] => power(x, g),
+                [g, a, b] if a * x + b >= 0.0 => power(a * x + b, g),
+                [_, _, _] => 0.0,
+                [g, a, b, c] if a * x + b >= 0.0 => power(a * x + b, g) + c,
+                [_, _, _, c] => c,
+                [g, a, b, _, d] if x >= d => power(a * x + b, g),
+                [_, _, _, c, _] => c * x,
+                [g, a, b, _, d, e, _] if x >= d => power(a * x + b, g) + e,
+                [_, _, _, c, _, _, f] => c * x + f,
+                _ => return None,
+            }
+        }
+    })
+}
+
 /// All texels through `f`, and how often it said true.
-fn each<T: Copy + Send + Sync>(texels: &[[T; 4]], f: impl Fn([T; 4]) -> ([T; 4], bool) + Sync) -> (Vec<[T; 4]>, usize) {
-    let mut result = texels.to_vec();
-    let clipped = result
+fn each<T: Copy + Send + Sync>(texels: &mut [[T; 4]], f: impl Fn([T; 4]) -> ([T; 4], bool) + Sync) -> usize {
+    texels
         .par_iter_mut()
         .with_min_len(1 << 14)
         .map(|texel| {
@@ -233,8 +268,7 @@ fn each<T: Copy + Send + Sync>(texels: &[[T; 4]], f: impl Fn([T; 4]) -> ([T; 4],
             *texel = new;
             usize::from(is_out)
         })
-        .sum();
-    (result, clipped)
+        .sum()
 }
 
 /// A profile's own name in quotes, made safe to print.

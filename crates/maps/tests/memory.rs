@@ -33,6 +33,8 @@ fn decoding_stays_within_its_limit() {
     sound_files();
     claims();
     bombs();
+    profiles();
+    tiff_claims();
 }
 
 /// The limit that lets a file through is no less than what is taken for it.
@@ -147,6 +149,44 @@ fn bombs() {
     let (result, peak) = peak_of(|| decode(&file, limits));
     println!("PNG with data past its size: {} bytes, peak {peak}, {:?}", file.len(), result.map(|d| d.image().width()));
     assert!(peak < allowed, "{peak}");
+}
+
+/// A profile beside a large image counts, and bringing colours to sRGB takes no second image.
+fn profiles() {
+    let limits = Limits { max_bytes: 64 << 20, ..Limits::default() };
+    let image = vec![7_u8; 64 << 20];
+    let with = |profile: Option<Vec<u8>>| {
+        let mut file = Vec::new();
+        let mut encoder = PngEncoder::new(&mut file);
+        if let Some(profile) = profile {
+            encoder.set_icc_profile(profile).unwrap();
+        }
+        encoder.write_image(&image, 4096, 4096, ExtendedColorType::Rgba8).unwrap();
+        file
+    };
+    let (result, peak) = peak_of(|| decode(&with(Some(vec![0; 20 << 20])), limits).map(|_| ()));
+    assert!(matches!(result, Err(DecodeError::TooLarge { .. })), "{result:?}, {peak}");
+    let plain = with(None);
+    let gamma = [&[0, 0, 0, 4][..], b"gAMA", &100_000_u32.to_be_bytes()].concat();
+    let gamma = [&gamma, &crc32(&gamma[4..]).to_be_bytes()[..]].concat();
+    let file = [&plain[..33], &gamma, &plain[33..]].concat();
+    drop((plain, image));
+    let (noted, peak) = peak_of(|| decode(&file, limits).unwrap().into_color().unwrap());
+    assert!(noted.notes[0].contains("converted to sRGB"), "{:?}", noted.notes);
+    assert!(peak < (64 << 20) + OVERHEAD, "{peak}");
+}
+
+/// A TIFF file of 1 x 1 whose tags say that they have a million values.
+fn tiff_claims() {
+    let sound = written(&DynamicImage::new_rgb8(1, 1), ImageFormat::Tiff);
+    let directory = u32::from_le_bytes(sound[4..8].try_into().unwrap()) as usize;
+    for entry in 0..usize::from(sound[directory]) {
+        let mut file = sound.clone();
+        let at = directory + 2 + 12 * entry;
+        file[at + 4..at + 8].copy_from_slice(&1_000_000_u32.to_le_bytes());
+        let (result, peak) = peak_of(|| decode(&file, Limits::default()));
+        assert!(matches!(result, Err(DecodeError::Truncated { .. })) && peak < OVERHEAD, "{entry}: {peak}, {result:?}");
+    }
 }
 
 /// PNG's CRC (ISO/IEC 15948, annex D).

@@ -6,6 +6,7 @@ use crate::profile::Profile;
 /// ISO/IEC 15948 (2003) and its third edition (W3C 2025), 4.3: cICP before iCCP before sRGB before gAMA and cHRM.
 pub(super) fn png(bytes: &[u8], icc: Option<&[u8]>, is_grey: bool) -> Option<Profile> {
     let (mut srgb, mut iccp, mut gamma, mut cicp, mut primaries) = (false, false, None, None, None);
+    let mut damaged = None;
     let mut rest = bytes.get(8..)?;
     while let Some((&[a, b, c, d], after)) = rest.split_first_chunk::<4>() {
         let Some((kind, after)) = after.split_first_chunk::<4>() else { break };
@@ -13,6 +14,9 @@ pub(super) fn png(bytes: &[u8], icc: Option<&[u8]>, is_grey: bool) -> Option<Pro
         let Some(data) = after.get(..length) else { break };
         match kind {
             b"IDAT" => break,
+            b"gAMA" if length != 4 => damaged = Some("gAMA chunk"),
+            b"cICP" if length != 4 => damaged = Some("cICP chunk"),
+            b"cHRM" if length != 32 => damaged = Some("cHRM chunk"),
             b"sRGB" => srgb = true,
             b"iCCP" => iccp = true,
             b"gAMA" => gamma = data.first_chunk::<4>().map(|&value| u32::from_be_bytes(value)),
@@ -29,6 +33,9 @@ pub(super) fn png(bytes: &[u8], icc: Option<&[u8]>, is_grey: bool) -> Option<Pro
         return Some(
             icc.map_or_else(|| Profile::refused("iCCP chunk", "it is damaged"), |icc| Profile::from_icc(icc, is_grey)),
         );
+    }
+    if let Some(name) = damaged.filter(|_| !srgb) {
+        return Some(Profile::refused(name, "it is damaged"));
     }
     let gamma_name = gamma.map(|gamma| format!("gAMA {:.5}", f64::from(gamma) / 1e5));
     if srgb {

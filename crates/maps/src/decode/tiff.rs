@@ -6,7 +6,7 @@ use std::io::Cursor;
 use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, DecodingResult, Limits as TiffLimits};
 use tiff::tags::Tag;
-use tiff::{ColorType, TiffError};
+use tiff::{ColorType, TiffError, TiffUnsupportedError};
 
 use super::{DecodeError, Limits, Parts, check_size, finite, spread};
 use crate::image::{Channels, Texels};
@@ -25,6 +25,7 @@ const MAX_TAG_BYTES: usize = 16 << 20;
 
 /// Reads the first image of the file.
 pub(super) fn decode(bytes: &[u8], limits: Limits) -> Result<Parts, DecodeError> {
+    check_claims(bytes, limits)?;
     // The decoder has no palettes: the file is read as grey, which are the indices.
     let patched = palette_as_grey(bytes);
     let mut decoder = Decoder::new(Cursor::new(patched.as_deref().unwrap_or(bytes))).map_err(explained)?;
@@ -95,30 +96,71 @@ pub(super) fn decode(bytes: &[u8], limits: Limits) -> Result<Parts, DecodeError>
     Ok(Parts { width, height, channels: stored, texels, profile, notes })
 }
 
-/// A copy of the file that says grey where it says palette, or nothing for other files.
-fn palette_as_grey(bytes: &[u8]) -> Option<Vec<u8>> {
-    let big_endian = bytes.starts_with(b"MM");
-    let number = |at: usize, length: usize| -> Option<usize> {
-        let field = bytes.get(at..at.checked_add(length)?)?;
-        let add = |n: usize, &b: &u8| n.checked_mul(256)?.checked_add(usize::from(b));
-        if big_endian { field.iter().try_fold(0, add) } else { field.iter().rev().try_fold(0, add) }
-    };
-    // A directory is a count and entries of tag, type, count, value; BigTIFF widens all but tag and type.
-    let (start, count_length, entry_length, value_at) = match number(2, 2)? {
-        42 => (number(4, 4)?, 2, 12, 8),
-        43 => (number(8, 8)?, 8, 20, 12),
+/// One entry of the file's first directory.
+struct Entry {
+    tag: usize,
+    /// How many values it says that it has, and the bytes of each.
+    count: usize,
+    size: usize,
+    /// Where its value stands, or the place of its values where they take more than `inline` bytes.
+    value: usize,
+    inline: usize,
+}
+
+/// A number of the file's byte order.
+fn number(bytes: &[u8], at: usize, length: usize) -> Option<usize> {
+    let field = bytes.get(at..at.checked_add(length)?)?;
+    let add = |n: usize, &b: &u8| n.checked_mul(256)?.checked_add(usize::from(b));
+    if bytes.starts_with(b"MM") { field.iter().try_fold(0, add) } else { field.iter().rev().try_fold(0, add) }
+}
+
+/// The entries of the first directory, as far as they lie in the file. TIFF 6.0 (1992), section 2: a count and entries of tag,
+/// type, count, value; BigTIFF widens all but tag and type.
+fn directory(bytes: &[u8]) -> Option<Vec<Entry>> {
+    let (start, count_length, wide) = match number(bytes, 2, 2)? {
+        42 => (number(bytes, 4, 4)?, 2, 4),
+        43 => (number(bytes, 8, 8)?, 8, 8),
         _ => return None,
     };
-    let count = number(start, count_length)?;
     let first = start.checked_add(count_length)?;
-    let entries = (0..count.min(65_536)).map_while(|i| first.checked_add(i * entry_length));
-    let entry = entries.map_while(|at| Some((at, number(at, 2)?))).find(|&(_, tag)| tag == usize::from(PHOTOMETRIC))?.0;
-    let value = entry.checked_add(value_at)?;
-    if number(value, 2)? != usize::from(PALETTE) {
+    let entry = |i: usize| -> Option<Entry> {
+        let at = first.checked_add(i * (4 + 2 * wide))?;
+        let size = match number(bytes, at + 2, 2)? {
+            3 | 8 => 2,
+            4 | 9 | 11 | 13 => 4,
+            5 | 10 | 12 | 16 | 17 | 18 => 8,
+            _ => 1,
+        };
+        let count = number(bytes, at + 4, wide)?;
+        Some(Entry { tag: number(bytes, at, 2)?, count, size, value: at + 4 + wide, inline: wide })
+    };
+    Some((0..number(bytes, start, count_length)?.min(65_536)).map_while(entry).collect())
+}
+
+/// Refuses a file whose directory claims values that it has not: its decoder makes room for them, 32 bytes each, before it
+/// reads.
+fn check_claims(bytes: &[u8], limits: Limits) -> Result<(), DecodeError> {
+    for entry in directory(bytes).unwrap_or_default() {
+        let values = entry.count.saturating_mul(entry.size);
+        let start = if values > entry.inline { number(bytes, entry.value, entry.inline) } else { Some(entry.value) };
+        if start.and_then(|start| start.checked_add(values)).is_none_or(|end| end > bytes.len()) {
+            return Err(DecodeError::Truncated { format: NAME });
+        }
+        if (entry.count as u64).saturating_mul(32) > limits.max_bytes {
+            return Err(DecodeError::Memory { format: NAME });
+        }
+    }
+    Ok(())
+}
+
+/// A copy of the file that says grey where it says palette, or nothing for other files.
+fn palette_as_grey(bytes: &[u8]) -> Option<Vec<u8>> {
+    let value = directory(bytes)?.into_iter().find(|entry| entry.tag == usize::from(PHOTOMETRIC))?.value;
+    if number(bytes, value, 2)? != usize::from(PALETTE) {
         return None;
     }
     let mut patched = bytes.to_vec();
-    let grey = if big_endian { BLACK_IS_ZERO.to_be_bytes() } else { BLACK_IS_ZERO.to_le_bytes() };
+    let grey = if bytes.starts_with(b"MM") { BLACK_IS_ZERO.to_be_bytes() } else { BLACK_IS_ZERO.to_le_bytes() };
     patched.get_mut(value..value + 2)?.copy_from_slice(&grey);
     Some(patched)
 }
@@ -191,7 +233,10 @@ fn explained(error: TiffError) -> DecodeError {
         TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
             DecodeError::Truncated { format: NAME }
         }
-        TiffError::UnsupportedError(what) => unsupported(&what.to_string()),
+        TiffError::UnsupportedError(TiffUnsupportedError::UnsupportedCompressionMethod(method)) => {
+            unsupported(&format!("the compression {method:?}"))
+        }
+        TiffError::UnsupportedError(what) => unsupported(&format!("what it holds ({what})")),
         TiffError::LimitsExceeded => DecodeError::Memory { format: NAME },
         other => DecodeError::Damaged { format: NAME, reason: other.to_string() },
     }

@@ -6,7 +6,7 @@ use halfvector_maps::color::srgb_from_linear;
 use halfvector_maps::{Channels, DecodeError, Decoded, Image, Limits, Texels};
 use image::codecs::{jpeg::JpegEncoder, png::PngEncoder, webp::WebPEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageFormat};
-use moxcms::ColorProfile;
+use moxcms::{ColorProfile, ToneReprCurve};
 
 use crate::decode::{crc32, file};
 
@@ -147,6 +147,69 @@ fn wide_colours_are_converted() {
     assert!(texels(&noted.image)[9][0].abs_diff(213) <= 2, "{:?}", texels(&noted.image)[9]);
 }
 
+/// Linear light of a code in 0..1.
+type Formula = Box<dyn Fn(f64) -> f64>;
+
+/// ICC curves of every kind, from their own formulas (ISO 15076-1, 10.6 and 10.18), with channels of 0 beside others.
+#[test]
+fn curves_of_icc_profiles_are_followed() {
+    let table: Vec<u16> = (0..=16_u16).map(|i| i * i * 255).collect();
+    let in_table = |x: f64| {
+        let (i, place) = ((x * 16.0).floor().min(15.0), x * 16.0);
+        let at = |i: f64| i * i * 255.0 / 65_535.0;
+        at(i) + (at(i + 1.0) - at(i)) * (place - i)
+    };
+    let mut curves: Vec<(ToneReprCurve, Formula)> = vec![
+        (ToneReprCurve::Lut(vec![]), Box::new(|x| x)),
+        (ToneReprCurve::Lut(table), Box::new(in_table)),
+        (ToneReprCurve::Parametric(vec![1.8]), Box::new(|x| x.powf(1.8))),
+        (ToneReprCurve::Parametric(vec![2.0, 0.75, 0.25]), Box::new(|x| (0.75 * x + 0.25).powi(2))),
+        (ToneReprCurve::Parametric(vec![2.0, 0.5, 0.25, 0.125]), Box::new(|x| (0.5 * x + 0.25).powi(2) + 0.125)),
+        (
+            ToneReprCurve::Parametric(vec![2.0, 0.5, 0.5, 0.25, 0.5]),
+            Box::new(|x| if x >= 0.5 { (0.5 * x + 0.5).powi(2) } else { 0.25 * x }),
+        ),
+    ];
+    for tenths in 10..=26_u16 {
+        let gamma = tenths * 256 / 10;
+        let exponent = f64::from(gamma) / 256.0;
+        curves.push((ToneReprCurve::Lut(vec![gamma]), Box::new(move |x| x.powf(exponent))));
+    }
+    let colors = [[0, 128, 0], [255, 0, 0], [128, 0, 0], [1, 30, 0], [60, 120, 240], [255, 255, 255]];
+    for (curve, value) in curves {
+        let mut profile = ColorProfile::new_srgb();
+        [profile.red_trc, profile.green_trc, profile.blue_trc] = [0; 3].map(|_| Some(curve.clone()));
+        let [(_, bytes), _] = with_profile(&colors, &profile.encode().unwrap());
+        let noted = decoded(&bytes).into_color().unwrap();
+        for (got, from) in texels(&noted.image).iter().zip(colors) {
+            let want = srgb_from_linear(from.map(|c| value(f64::from(c) / 255.0))).map(|c| (c * 255.0).round());
+            // The profile's matrix is rounded to 1 / 65536.
+            let near = (0..3).all(|k| (f64::from(got[k]) - want[k]).abs() <= 1.0);
+            assert!(near, "{curve:?}: {from:?} is {got:?} and not {want:?}");
+        }
+    }
+}
+
+/// A gamma alone, or with the primaries of Rec. 709, mixes no channels: to half a code, and nothing is clipped.
+#[test]
+fn saturated_colours_of_16_bits_stay_saturated() {
+    let colors = [[65_535_u16, 0, 0], [0, 65_535, 0], [0, 0, 65_535], [1000, 30_000, 65_535]];
+    let mut bytes = Cursor::new(Vec::new());
+    let buffer = image::ImageBuffer::<image::Rgb<u16>, _>::from_raw(4, 1, colors.as_flattened().to_vec()).unwrap();
+    image::DynamicImage::ImageRgb16(buffer).write_to(&mut bytes, ImageFormat::Png).unwrap();
+    let bytes = bytes.into_inner();
+    let primaries = [31_270_u32, 32_900, 64_000, 33_000, 30_000, 60_000, 15_000, 6000].map(u32::to_be_bytes);
+    for chunks in [gamma(100_000), [gamma(100_000), chunk(b"cHRM", primaries.as_flattened())].concat()] {
+        let noted = decoded(&[&bytes[..33], &chunks, &bytes[33..]].concat()).into_color().unwrap();
+        assert!(!noted.notes[0].contains("clipped"), "{:?}", noted.notes);
+        let Texels::U16(texels) = noted.image.texels() else { panic!("16 bits stay") };
+        for (got, from) in texels.iter().zip(colors) {
+            let want = srgb_from_linear(from.map(|c| f64::from(c) / 65_535.0)).map(|c| (c * 65_535.0).round() as u16);
+            assert_eq!(got[..3], want);
+        }
+    }
+}
+
 /// A grey profile on a grey file is a curve; on a coloured file it is refused.
 #[test]
 fn grey_profiles_are_for_grey() {
@@ -175,6 +238,9 @@ fn refusals_name_the_profile() {
         (png(&COLORS, &[chunk(b"cICP", &[1, 13, 0, 0])]), "full-range"),
         (png(&COLORS, &[chunk(b"iCCP", b"name\0\0no zlib stream")]), "iCCP chunk"),
         (png(&COLORS, &[gamma(45_455), chunk(b"cHRM", &[0; 32])]), "no colours"),
+        (png(&COLORS, &[chunk(b"gAMA", &[0, 1, 2])]), "gAMA chunk"),
+        (png(&COLORS, &[gamma(45_455), chunk(b"cHRM", &[0; 31])]), "cHRM chunk"),
+        (png(&COLORS, &[chunk(b"cICP", &[1, 13, 0])]), "cICP chunk"),
         (with_cmyk, "ICC profile"),
     ] {
         let decoded = decoded(&bytes);
