@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod bake;
+mod bevy;
 mod browser;
 mod device;
 mod docs;

@@ -3,7 +3,7 @@
 //! The bytes and the WGSL struct of a uniform block come from one list of members; its layout and packing stand in
 //! `layout`.
 
-use halfvector_graph::document::SocketRef;
+use halfvector_graph::document::{AlphaMode, SocketRef};
 use halfvector_graph::value::{Filter, ImageRef, Type, Wrap};
 
 /// Everything outside of itself that a shader reads.
@@ -15,6 +15,10 @@ pub struct Reflection {
     pub bindings: Vec<Binding>,
     /// Parameters offered to the material's user, in the document's order.
     pub parameters: Vec<ShaderParameter>,
+    /// What the opacity that the fragment stage returns does; `Opaque` where it is always 1.
+    pub alpha_mode: AlphaMode,
+    /// Whether back faces are to be drawn.
+    pub double_sided: bool,
 }
 
 /// A vertex attribute.

@@ -7,6 +7,7 @@
 mod clipboard;
 mod collapse;
 mod import;
+mod rename_socket;
 mod ungroup;
 mod wire;
 
@@ -19,6 +20,7 @@ use crate::library::Library;
 pub use clipboard::{copy, paste};
 pub use collapse::collapse;
 pub use import::{export_group, import_group};
+pub use rename_socket::{GroupSide, rename_socket};
 pub use ungroup::ungroup;
 pub use wire::{can_connect, insert_on_link, remove_and_heal};
 

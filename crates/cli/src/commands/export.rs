@@ -28,7 +28,7 @@ pub(crate) struct ExportArgs {
     /// A material (*.material.json)
     #[arg(value_name = "DOC")]
     document: PathBuf,
-    /// The shading language, or web: one page, index.html, that draws itself with WebGPU and needs no network
+    /// The shading language, or web: one page, index.html, that draws itself with WebGPU and needs no network; or bevy: a material plug-in
     #[arg(long, value_name = "TARGET", value_parser = parse_target)]
     target: Wanted,
     /// The folder for the files; made when missing
@@ -96,7 +96,7 @@ fn code(args: &ExportArgs, document: &Document, target: &Target) -> Result<(Shad
         }
     };
     args.methods.apply(&mut needs.methods);
-    let shader = shader(args, document, &needs)?;
+    let shader = shader(args, document, &target.needs(needs))?;
     let files = export(&shader, target, &file_stem(args)).map_err(|error| failed(args, error))?;
     Ok((shader, files))
 }

@@ -40,7 +40,13 @@ impl Interface<'_, '_> {
         self.environment(&mut bindings);
         self.material(&mut bindings);
         self.object(&mut bindings);
-        Reflection { vertex_inputs: self.vertex_inputs(), bindings, parameters: self.parameters() }
+        Reflection {
+            vertex_inputs: self.vertex_inputs(),
+            bindings,
+            parameters: self.parameters(),
+            alpha_mode: plan.alpha_mode,
+            double_sided: plan.double_sided,
+        }
     }
 
     /// The reflection of the material alone.
@@ -48,7 +54,7 @@ impl Interface<'_, '_> {
         let mut bindings = Vec::new();
         self.view(&mut bindings);
         self.material(&mut bindings);
-        Reflection { vertex_inputs: Vec::new(), bindings, parameters: self.parameters() }
+        Reflection { bindings, parameters: self.parameters(), ..Reflection::default() }
     }
 
     fn vertex_inputs(&self) -> Vec<VertexInput> {

@@ -8,7 +8,7 @@ mod interface;
 mod material;
 pub(crate) mod text;
 mod value;
-mod vertex;
+pub(crate) mod vertex;
 
 use std::collections::BTreeMap;
 

@@ -6,18 +6,20 @@
 use naga::back::glsl;
 use serde_json::{Map, Value, json as value};
 
-use super::{ExportError, OutputFile, Source, Target, file, json};
+use super::{ExportError, OutputFile, Source, Target, file, json, same};
 use crate::reflection::Resource;
 
 pub(super) const TARGET: Target = Target {
     name: "glsl",
     help: "GLSL 4.50, one file a stage",
+    needs: same,
     write: |source, name| write(source, name, "glsl", desktop()),
 };
 
 pub(super) const TARGET_ES: Target = Target {
     name: "glsl-es",
     help: "GLSL ES 3.00 (WebGL 2), one file a stage",
+    needs: same,
     write: |source, name| write(source, name, "glsl-es", es()),
 };
 

@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 
 use naga::back::hlsl;
 
-use super::{ExportError, OutputFile, Source, Target, file, json};
+use super::{ExportError, OutputFile, Source, Target, file, json, same};
 use crate::reflection::Resource;
 
-pub(super) const TARGET: Target = Target { name: "hlsl", help: "HLSL, shader model 5.1", write };
+pub(super) const TARGET: Target = Target { name: "hlsl", help: "HLSL, shader model 5.1", needs: same, write };
 
 fn write(source: &Source<'_>, name: &str) -> Result<Vec<OutputFile>, ExportError> {
     let fail = |message: String| ExportError::Backend { target: TARGET.name, message };

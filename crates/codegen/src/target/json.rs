@@ -26,6 +26,8 @@ pub(super) fn reflection(source: &Source<'_>, name: &str, target: &str, details:
     );
     root.insert("bindings".into(), reflection.bindings.iter().map(binding).collect());
     root.insert("parameters".into(), reflection.parameters.iter().map(parameter).collect());
+    root.insert("alpha_mode".into(), json!(reflection.alpha_mode.name()));
+    root.insert("double_sided".into(), json!(reflection.double_sided));
     let left_out = source.shader.dropped.iter().map(|d| json!({ "what": d.what, "why": d.why }));
     root.insert("left_out".into(), left_out.collect());
     if target == "wgsl" {

@@ -3,12 +3,15 @@
 //! Every target's vertex stage writes positions in that target's own clip space, given a `clip_from_world` made for it:
 //! nothing is flipped on the way.
 
+mod bevy;
 mod glsl;
 mod hlsl;
 mod json;
 mod msl;
 mod spirv;
 mod wgsl;
+
+use halfvector_graph::needs::Needs;
 
 use crate::{Shader, ValidationError, validate};
 
@@ -18,11 +21,13 @@ pub struct Target {
     pub name: &'static str,
     /// What it is, for people.
     pub help: &'static str,
+    needs: fn(Needs) -> Needs,
     write: fn(&Source<'_>, &str) -> Result<Vec<OutputFile>, ExportError>,
 }
 
 /// All targets, in the order shown.
-pub const TARGETS: &[Target] = &[wgsl::TARGET, glsl::TARGET, glsl::TARGET_ES, hlsl::TARGET, msl::TARGET, spirv::TARGET];
+pub const TARGETS: &[Target] =
+    &[wgsl::TARGET, glsl::TARGET, glsl::TARGET_ES, hlsl::TARGET, msl::TARGET, spirv::TARGET, bevy::TARGET];
 
 /// The target with this name.
 pub fn target(name: &str) -> Option<&'static Target> {
@@ -60,8 +65,16 @@ struct Source<'s> {
     valid: &'s crate::Valid,
 }
 
+impl Target {
+    /// What a shader for this target is made for, in the place of what a scene needs: where the target is an engine with
+    /// lights of its own it serves those.
+    pub fn needs(&self, needs: Needs) -> Needs {
+        (self.needs)(needs)
+    }
+}
+
 /// A shader as files: the code, one file for each stage where the target wants that, and `NAME.json` with bindings,
-/// parameters and vertex inputs.
+/// parameters and vertex inputs; for an engine its plug-in. The shader was made for what [`Target::needs`] gives.
 ///
 /// # Errors
 /// The shader is not valid, or the target's language cannot express it.
@@ -94,4 +107,9 @@ impl Source<'_> {
 
 fn file(name: String, bytes: impl Into<Vec<u8>>) -> OutputFile {
     OutputFile { name, bytes: bytes.into() }
+}
+
+/// The needs of a scene as they are.
+fn same(needs: Needs) -> Needs {
+    needs
 }

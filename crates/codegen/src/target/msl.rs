@@ -4,10 +4,10 @@
 use naga::back::msl;
 use serde_json::{Map, Value};
 
-use super::{ExportError, OutputFile, Source, Target, file, json};
+use super::{ExportError, OutputFile, Source, Target, file, json, same};
 use crate::reflection::Resource;
 
-pub(super) const TARGET: Target = Target { name: "msl", help: "Metal Shading Language 2.1", write };
+pub(super) const TARGET: Target = Target { name: "msl", help: "Metal Shading Language 2.1", needs: same, write };
 
 fn write(source: &Source<'_>, name: &str) -> Result<Vec<OutputFile>, ExportError> {
     let fail = |message: String| ExportError::Backend { target: TARGET.name, message };

@@ -2,9 +2,10 @@
 
 use naga::back::spv;
 
-use super::{ExportError, OutputFile, Source, Target, file, json};
+use super::{ExportError, OutputFile, Source, Target, file, json, same};
 
-pub(super) const TARGET: Target = Target { name: "spirv", help: "SPIR-V 1.0 for Vulkan, one module a stage", write };
+pub(super) const TARGET: Target =
+    Target { name: "spirv", help: "SPIR-V 1.0 for Vulkan, one module a stage", needs: same, write };
 
 fn write(source: &Source<'_>, name: &str) -> Result<Vec<OutputFile>, ExportError> {
     let fail = |e: spv::Error| ExportError::Backend { target: TARGET.name, message: e.to_string() };

@@ -8,7 +8,8 @@ use crate::document::{Document, Group, GroupOutput, Node, Parameter};
 use crate::edit::{Edit, apply};
 use crate::file::{from_json, group_from_json, group_to_json, to_json};
 use crate::operation::{
-    can_connect, collapse, copy, export_group, import_group, insert_on_link, paste, remove_and_heal, ungroup,
+    GroupSide, can_connect, collapse, copy, export_group, import_group, insert_on_link, paste, remove_and_heal,
+    rename_socket, ungroup,
 };
 use crate::value::{Type, Value};
 
@@ -234,4 +235,32 @@ proptest! {
             prop_assert_eq!(to_json(&after), to_json(&d));
         }
     }
+}
+
+#[test]
+fn a_groups_socket_is_renamed_with_all_that_names_it() {
+    let d = chain();
+    let d = made(&d, &collapse(&d, small(), None, &ids(&["m", "n"]), "Two mixes").expect("a group"));
+    // A second user, within a group of its own.
+    let d = made(&d, &collapse(&d, small(), None, &ids(&["two_mixes"]), "Around").expect("a group"));
+    let input = |d: &Document| d.groups["two_mixes"].interface.inputs[1].name.clone();
+    assert_eq!(input(&d), "weight");
+    let after = made(&d, &rename_socket(&d, "two_mixes", GroupSide::Input, "weight", "share").expect("free"));
+    assert_eq!(input(&after), "share");
+    let file = to_json(&after);
+    assert!(!file.contains("two_mixes.weight") && file.contains("two_mixes.share"), "{file}");
+    let after = made(&after, &rename_socket(&after, "two_mixes", GroupSide::Output, "out", "bent").expect("free"));
+    assert!(to_json(&after).contains("two_mixes.bent"), "{}", to_json(&after));
+    let outer = made(&after, &rename_socket(&after, "around", GroupSide::Input, "weight", "how_much").expect("free"));
+    assert_eq!(outer.parameters[0].socket, socket("around.how_much"), "the parameter goes along");
+    for (group, from, to, why) in [
+        ("none", "a", "b", "no group"),
+        ("two_mixes", "none", "b", "no input"),
+        ("two_mixes", "a", "share", "already"),
+        ("two_mixes", "a", "a b", "no name"),
+    ] {
+        let refusal = rename_socket(&after, group, GroupSide::Input, from, to).expect_err(why);
+        assert!(refusal.0.contains(why), "{refusal}");
+    }
+    made(&after, &rename_socket(&after, "two_mixes", GroupSide::Input, "a", "a").expect("the same name is no harm"));
 }

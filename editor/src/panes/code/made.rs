@@ -83,9 +83,9 @@ pub(super) fn make(job: Job) -> Made {
 }
 
 fn ready(job: &Job) -> Result<Ready, String> {
-    let shader =
-        shader(&job.document, Library::standard(), &job.needs, Fold::Export).map_err(|error| error.to_string())?;
     let target = target(job.target).ok_or_else(|| format!("there is no target {}", job.target))?;
+    let needs = target.needs(job.needs.clone());
+    let shader = shader(&job.document, Library::standard(), &needs, Fold::Export).map_err(|error| error.to_string())?;
     let files = export(&shader, target, "material").map_err(|error| error.to_string())?;
     let bytes = files.iter().map(|file| file.bytes.len()).sum();
     let shown = || files.iter().filter(|file| !file.name.ends_with(".json"));
