@@ -259,7 +259,7 @@ mod tests {
             those.filter_map(|row| row.error_max).fold(0.0, f64::max)
         };
         for method in &FRAMES[..3] {
-            assert!(worst(method, "squares, flat") < 1e-3, "{method}: {}", worst(method, "squares, flat"));
+            assert!(worst(method, "squares, flat:") < 1e-3, "{method}: {}", worst(method, "squares, flat:"));
             assert!(worst(method, "ball") < 15.0, "{method}: {}", worst(method, "ball"));
         }
         assert!(worst("rotation_report", "ball") > 60.0);
