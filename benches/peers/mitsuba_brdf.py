@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Mitsuba 3's LLVM backend on one core beside our batches: a GGX conductor's eval and sample.
 
-Usage, from the project's root: python3 benches/peers/mitsuba_brdf.py
+Usage, from the project's root: python3 benches/peers/mitsuba_brdf.py [--rates: Mitsuba's alone]
 Prints millions of points a second (medians) and ratios to Mitsuba and to our own scalar function.
 Needs `pip install mitsuba` and an LLVM library (Debian: libllvm19; DRJIT_LIBLLVM_PATH names another).
 
@@ -82,6 +82,11 @@ def ours(group, name):
     path = target / "criterion" / group / name / "new" / "estimates.json"
     return 4096 * 1e3 / json.loads(path.read_text())["median"]["point_estimate"]
 
+
+if "--rates" in sys.argv:
+    # For `halfvector report`: millions of evaluations and of samples a second.
+    print(*best())
+    sys.exit()
 
 before = best()
 command = ["cargo", "bench", "-q", "-p", "halfvector-benches", "--bench", "brdf", "--", "--warm-up-time", "1", "--measurement-time", "2"]

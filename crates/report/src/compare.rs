@@ -15,13 +15,13 @@ const ERROR_NOISE: f64 = 0.05;
 const ERROR_FLOOR: f64 = 1e-9;
 /// A time may differ by this part and by four times the spreads of both runs.
 const TIME_NOISE: f64 = 0.15;
-/// The spread of a time that does not say its own.
-const UNKNOWN_SPREAD: f64 = 0.1;
+/// A counted number of instructions may grow by this part.
+const COUNT_NOISE: f64 = 0.02;
 
 /// Something that became worse.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// What: `slower`, `less accurate`, `more results that are no numbers`, `gone`.
+    /// What: `slower`, `longer`, `less accurate`, `more results that are no numbers`, `gone`.
     pub what: &'static str,
     /// The row, as it was.
     pub term: String,
@@ -56,6 +56,7 @@ pub fn changes(old: &Report, new: &Report) -> Vec<Change> {
     let of = |part: &Row| new.rows.iter().find(|row| key(row) == key(part));
     let pairs: Vec<(&Row, &Row)> = old.rows.iter().filter_map(|row| Some((row, of(row)?))).collect();
     let mut changes = slower(&pairs);
+    changes.extend(longer(&pairs));
     if old.effort == new.effort {
         changes.extend(pairs.iter().flat_map(|&(old, new)| less_accurate(old, new)));
     }
@@ -78,8 +79,9 @@ fn slower(pairs: &[(&Row, &Row)]) -> Vec<Change> {
             let (Some(before), Some(now), Some(ratio)) = (cost(old), cost(new), ratio(cost, old, new)) else {
                 continue;
             };
-            let spread = |row: &Row| row.cost_spread.unwrap_or(UNKNOWN_SPREAD);
-            let allowed = 1.0 + TIME_NOISE + 4.0 * (spread(old) + spread(new));
+            // A time of too few runs does not know its noise: it proves nothing.
+            let (Some(first), Some(second)) = (old.cost_spread, new.cost_spread) else { continue };
+            let allowed = 1.0 + TIME_NOISE + 4.0 * (first + second);
             if ratio > allowed * machine && told.insert((&old.term, &old.method, before.to_bits())) {
                 let figures = format!(
                     "{name} takes {now:.3} ns, was {before:.3} ns; {:.2} times as long beside the other methods, noise allows \
@@ -88,6 +90,20 @@ fn slower(pairs: &[(&Row, &Row)]) -> Vec<Change> {
                 );
                 changes.push(Change::of("slower", old, figures));
             }
+        }
+    }
+    changes
+}
+
+/// Shaders with more instructions; once for each method, whose rows all have the same number.
+fn longer(pairs: &[(&Row, &Row)]) -> Vec<Change> {
+    let mut told = HashSet::new();
+    let mut changes = Vec::new();
+    for &(old, new) in pairs {
+        let (Some(before), Some(now)) = (old.instructions, new.instructions) else { continue };
+        let grown = now as f64 > before as f64 * (1.0 + COUNT_NOISE);
+        if grown && told.insert((&old.term, &old.method, before)) {
+            changes.push(Change::of("longer", old, format!("{now} instructions, were {before}")));
         }
     }
     changes
@@ -144,6 +160,17 @@ mod tests {
             [("slower", "c"), ("less accurate", "b")]
         );
         assert!(worse[0].to_string().starts_with("slower: d c: one call takes 6.000 ns, was 4.000 ns; 1.50 times"));
+    }
+
+    #[test]
+    fn longer_shaders_are_told_and_times_of_unknown_noise_are_not() {
+        let mut old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.3]);
+        old.rows[0].instructions = Some(400);
+        let mut new = old.clone();
+        new.rows[0].instructions = Some(430);
+        (new.rows[1].cost_ns, new.rows[1].cost_spread) = (Some(9.0), None);
+        let found: Vec<_> = changes(&old, &new).iter().map(|c| c.what).collect();
+        assert_eq!(found, ["longer"]);
     }
 
     #[test]

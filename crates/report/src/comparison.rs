@@ -224,7 +224,8 @@ fn figure(cost: Cost, row: &Row) -> Option<(f64, f64, Option<f64>)> {
 pub fn comparisons(rows: &[Row]) -> Vec<Comparison<'_>> {
     let mut merged: Vec<(Cost, Vec<Vec<usize>>)> = Vec::new();
     for (cost, group) in groups(rows) {
-        if rows[group[0]].is_rounding() || group.len() < 2 {
+        // Pictures of one drawer are not a choice among methods.
+        if rows[group[0]].is_rounding() || rows[group[0]].term == "picture" || group.len() < 2 {
             continue;
         }
         let alike = |other: &[usize]| {

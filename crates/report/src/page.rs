@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::comparison::{Budget, Comparison, Cost, Unit, comparisons};
+use crate::part::shaders;
 use crate::plot::{dark_rules, escaped, scatter};
 use crate::{Effort, PARTS, Report, Row, terms, words};
 
@@ -134,6 +135,9 @@ fn chapter(term: &str, report: &Report, comparisons: &[Comparison<'_>], page: &m
     };
     let others: Vec<&Row> =
         report.rows.iter().filter(|row| row.term == term && !row.is_rounding() && !drawn(row)).collect();
+    // What the shader of a method costs stands in the tables of its errors already.
+    let told = |row: &&Row| report.rows.iter().any(|other| shaders::tells_of(other, row));
+    let others: Vec<&Row> = others.into_iter().filter(|row| !told(row)).collect();
     if !others.is_empty() {
         page.push_str("<section class=\"card\">");
         if let Some(title) = alone(&others) {
@@ -232,7 +236,7 @@ fn table(comparison: &Comparison<'_>, page: &mut String) {
          <th class=\"n\">largest error</th>",
     );
     let _ = write!(page, "<th class=\"n\">{}</th><th class=\"n\">× cheapest</th>", short(comparison.cost));
-    for (there, name) in [(instructions, "instructions"), (device, "pixel on the device"), (bytes, "memory")] {
+    for (there, name) in [(instructions, "instructions"), (device, "device pixel"), (bytes, "memory")] {
         if there {
             let _ = write!(page, "<th class=\"n\">{name}</th>");
         }
@@ -284,11 +288,13 @@ fn tags(row: &Row) -> String {
 fn plain_table(rows: &[&Row], page: &mut String) {
     let has = |some: fn(&Row) -> bool| rows.iter().any(|row| some(row));
     let columns = [
+        ("FLIP", has(|row| row.flip.is_some())),
         ("NaN or inf", has(|row| row.not_finite.is_some())),
         ("one call", has(|row| row.cost_ns.is_some())),
+        ("one of many", has(|row| row.cost_batch_ns.is_some())),
         ("memory", has(|row| row.bytes.is_some())),
         ("instructions", has(|row| row.instructions.is_some())),
-        ("pixel on the device", has(|row| row.gpu_ns.is_some())),
+        ("device pixel", has(|row| row.gpu_ns.is_some())),
     ];
     page.push_str(
         "<div class=\"scroll\"><table><thead><tr><th>method</th><th class=\"n\">rms error</th>\
@@ -304,8 +310,10 @@ fn plain_table(rows: &[&Row], page: &mut String) {
         page.push_str(&cell(row.error_rms, error));
         page.push_str(&cell(row.error_max, error));
         let cells = [
+            cell(row.flip, words::number),
             cell(row.not_finite.map(|x| x as f64), |x| format!("{x:.0}")),
             cell(row.cost_ns, |x| words::cost(x, Cost::Call)),
+            cell(row.cost_batch_ns, |x| words::cost(x, Cost::Batch)),
             cell(row.bytes.map(|x| x as f64), |x| words::cost(x, Cost::Bytes)),
             cell(row.instructions.map(|x| x as f64), |x| format!("{x:.0}")),
             cell(row.gpu_ns, |x| words::cost(x, Cost::Call)),
@@ -356,7 +364,7 @@ fn rounding(report: &Report, page: &mut String) {
 fn foot(report: &Report, page: &mut String) {
     let device = report.rows.iter().find_map(|row| row.gpu.as_deref()).map_or(String::new(), |name| {
         format!(
-            "<p><b>Pixel on the device</b> is the time of that shader for one pixel by the timestamps of {}, the shortest of \
+            "<p><b>Device pixel</b> is the time of that shader for one pixel by the timestamps of {}, the shortest of \
              several turns.</p>",
             escaped(name)
         )

@@ -2,14 +2,18 @@
 
 pub mod brdf;
 pub mod energy;
+mod frames;
 pub mod ibl;
 pub mod lobes;
 pub mod maps;
 pub mod mips;
 mod multiple;
+pub mod peers;
+pub mod pictures;
 pub mod precision;
 pub mod shaders;
 mod split_sum;
+mod texels;
 
 use crate::{Effort, Row};
 
@@ -29,6 +33,8 @@ impl Part {
             "brdf" => [0.3, 20.0],
             "energy" => [2.0, 10.0],
             "ibl" => [27.0, 400.0],
+            "pictures" => [25.0, 400.0],
+            "peers" => [10.0, 120.0],
             _ => [0.5, 5.0],
         };
         match effort {
@@ -48,4 +54,6 @@ pub const PARTS: &[Part] = &[
     Part { name: "ibl", rows: ibl::rows },
     Part { name: "lobes", rows: lobes::rows },
     Part { name: "precision", rows: precision::rows },
+    Part { name: "pictures", rows: pictures::rows },
+    Part { name: "peers", rows: peers::rows },
 ];

@@ -19,6 +19,9 @@ pub struct Row {
     pub error_rms: Option<f64>,
     /// The input of the largest error.
     pub at: Option<String>,
+    /// Of a picture: mean FLIP, how different it looks, 0 to 1. Andersson et al. 2021, "Visualizing and Communicating Errors in
+    /// Rendered Images".
+    pub flip: Option<f64>,
     /// How many results were NaN or infinite where the truth is neither.
     pub not_finite: Option<u64>,
     /// The first of these inputs.

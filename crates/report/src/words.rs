@@ -91,18 +91,15 @@ pub fn finding(comparison: &Comparison<'_>) -> String {
 pub fn inputs(domains: &[&str]) -> String {
     let inputs: Vec<&str> =
         domains.iter().map(|domain| domain.rsplit_once(';').map_or(*domain, |(inputs, _)| inputs)).collect();
-    let heads: Option<Vec<(&str, &str)>> = inputs
-        .iter()
-        .map(|text| {
-            let at = text.find([':', ','])?;
-            Some((&text[..at], text[at + 1..].trim()))
-        })
-        .collect();
-    match heads {
-        Some(heads) if inputs.len() > 1 && heads.iter().all(|(_, rest)| *rest == heads[0].1) => {
-            let first: Vec<&str> = heads.iter().map(|(first, _)| *first).collect();
-            format!("{} (the worst of them): {}", first.join("; "), heads[0].1)
-        }
+    let shared = |mark: char| -> Option<String> {
+        let heads: Option<Vec<(&str, &str)>> =
+            inputs.iter().map(|text| text.split_once(mark).map(|(head, rest)| (head, rest.trim()))).collect();
+        let heads = heads.filter(|heads| heads.iter().all(|(_, rest)| *rest == heads[0].1))?;
+        let first: Vec<&str> = heads.iter().map(|(first, _)| *first).collect();
+        Some(format!("{} (the worst of them): {}", first.join("; "), heads[0].1))
+    };
+    match shared(':').or_else(|| shared(',')) {
+        Some(text) if inputs.len() > 1 => text,
         _ if inputs.len() > 1 => format!("the worst of: {}", inputs.join("; or ")),
         _ => inputs.join(""),
     }

@@ -43,10 +43,13 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     let mut report = Report::begun(effort);
     let start = Instant::now();
     for (done, part) in parts.iter().enumerate() {
-        let left: f64 = parts[done..].iter().map(|part| part.seconds(effort)).sum();
+        let before: f64 = parts[..done].iter().map(|part| part.seconds(effort)).sum();
+        // How much slower than foreseen this machine has been so far.
+        let pace = if before > 2.0 { start.elapsed().as_secs_f64() / before } else { 1.0 };
+        let left: f64 = pace * parts[done..].iter().map(|part| part.seconds(effort)).sum::<f64>();
         let bar = crate::output::progress(&format!("{}, about {} left", part.name, in_words(left)));
         let all: f64 = parts.iter().map(|part| part.seconds(effort)).sum();
-        bar.set_position((1000.0 * (1.0 - left / all)) as u64);
+        bar.set_position((1000.0 * before / all) as u64);
         let mut rows = (part.rows)(effort);
         bar.finish_and_clear();
         note(format_args!("{}: {} rows", part.name, rows.len()));

@@ -40,9 +40,12 @@ fn levels(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Q
     let domain =
         format!("{name}: levels of roughness >= 0.2 at texel centres; relative error against a sum over texels");
     let cases: Vec<(String, BakeOptions)> = [
+        ("ggx preview", Quality::Preview, 128, Prefilter::Ggx),
         ("ggx preview", Quality::Preview, 256, Prefilter::Ggx),
+        ("ggx", Quality::Default, 64, Prefilter::Ggx),
         ("ggx", Quality::Default, 128, Prefilter::Ggx),
         ("ggx", Quality::Default, 256, Prefilter::Ggx),
+        ("ggx best", Quality::Best, 128, Prefilter::Ggx),
         ("ggx best", Quality::Best, 256, Prefilter::Ggx),
         ("hdre", Quality::Default, 256, Prefilter::Hdre),
     ]
@@ -162,7 +165,8 @@ fn seen(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Qua
 
 /// Diffuse light from any direction: the cube, nine coefficients as they are and windowed, and the report's last level.
 ///
-/// A third order adds nothing: the cosine lobe has no third degree.
+/// A third degree adds nothing: the cosine lobe has none (Ramamoorthi and Hanrahan 2001), so that "SH3", nine coefficients in the
+/// count that begins at 1, is `sh2` here.
 fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Quadrature) -> Vec<Row> {
     let domain = format!("{name}: irradiance over pi at any direction; relative error against a sum over texels");
     let points: Vec<[f64; 3]> = (0..effort.pick(60, 1000)).map(direction).collect();
@@ -172,9 +176,10 @@ fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &
     let harmonics = |coefficients: [[f32; 4]; 9], dir: [f64; 3]| irradiance_sh2(coefficients, dir.map(|x| x as f32));
     let (plain, windowed) = (baked.irradiance_sh_padded(), windowed(baked.irradiance_sh_padded()));
     type Read<'a> = (&'a str, u64, &'a dyn Fn([f64; 3]) -> [f32; 3]);
-    let methods: [Read<'_>; 4] = [
+    let methods: [Read<'_>; 5] = [
         ("cube", 8 * baked.irradiance_over_pi.texels.len() as u64, &|dir| baked.irradiance_over_pi.sample(dir)),
         ("sh2", 144, &|dir| harmonics(plain, dir)),
+        ("sh1, four coefficients", 64, &|dir| harmonics(first_order(plain), dir)),
         ("sh2 windowed", 144, &|dir| harmonics(windowed, dir)),
         ("last_level", 8 * report.radiance[5].texels.len() as u64, &|dir| report.radiance[5].sample(dir)),
     ];
@@ -197,6 +202,12 @@ fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &
             row
         })
         .collect()
+}
+
+/// The coefficients of degrees 0 and 1 alone.
+fn first_order(mut coefficients: [[f32; 4]; 9]) -> [[f32; 4]; 9] {
+    coefficients[4..].fill([0.0; 4]);
+    coefficients
 }
 
 /// Hann's window over degrees 0, 1, 2: (1 + cos(pi l / 3)) / 2 (Sloan 2008, "Stupid Spherical Harmonics (SH) Tricks").

@@ -1,12 +1,13 @@
 //! Normal mapping: the angle between what each method makes of a texel and what the texel says, from the table that the
 //! tests of `halfvector-maps` hold (`data/normal_angle.csv`); blends of two normal maps against the sum of their height
-//! fields; and what one texel costs, alone and in a batch.
+//! fields; and what one texel costs, alone and in a batch. Frames on meshes are in `frames`, texels and heights in `texels`.
 
 use halfvector_maps::batch;
 use halfvector_maps::blend::{blend_linear, blend_partial_derivatives, blend_rnm, blend_udn, blend_whiteout};
 use halfvector_maps::derivative::{normal_from_slopes, normal_tbn_derivative};
 use halfvector_maps::normal::{normal_rotation_fixed, normal_rotation_report, normal_tbn};
 
+use super::{frames, texels};
 use crate::error::Errors;
 use crate::timing::measured;
 use crate::{Effort, Row};
@@ -17,7 +18,9 @@ const ANGLES: &str = include_str!("../../data/normal_angle.csv");
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
     let mut rows = methods(effort);
+    rows.extend(frames::rows(effort));
     rows.extend(blends(effort));
+    rows.extend(texels::rows(effort));
     rows
 }
 
@@ -36,6 +39,7 @@ struct Cost {
     method: &'static str,
     single: f64,
     batch: Option<f64>,
+    spread: Option<f64>,
 }
 
 type Run<'a> = Box<dyn FnMut() -> f64 + 'a>;
@@ -76,11 +80,17 @@ fn costs(effort: Effort) -> Vec<Cost> {
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
     let times = measured(&mut candidates, effort.pick(20, 200));
     let ns = |i: usize| times[i].seconds * 1e9 / count as f64;
+    let cost = |method, single: usize, batch: Option<usize>| Cost {
+        method,
+        single: ns(single),
+        batch: batch.map(ns),
+        spread: times[single].spread,
+    };
     vec![
-        Cost { method: "tbn", single: ns(0), batch: Some(ns(4)) },
-        Cost { method: "tbn_derivative", single: ns(1), batch: None },
-        Cost { method: "rotation_report", single: ns(2), batch: Some(ns(5)) },
-        Cost { method: "rotation_fixed", single: ns(3), batch: Some(ns(6)) },
+        cost("tbn", 0, Some(4)),
+        cost("tbn_derivative", 1, None),
+        cost("rotation_report", 2, Some(5)),
+        cost("rotation_fixed", 3, Some(6)),
     ]
 }
 
@@ -97,7 +107,7 @@ fn methods(effort: Effort) -> Vec<Row> {
         if rows.last().is_none_or(|row| row.method != method || row.domain != domain) {
             let mut row = Row::new("normal", method, &domain);
             if let Some(cost) = costs.iter().find(|cost| cost.method == method) {
-                (row.cost_ns, row.cost_batch_ns) = (Some(cost.single), cost.batch);
+                (row.cost_ns, row.cost_batch_ns, row.cost_spread) = (Some(cost.single), cost.batch, cost.spread);
             }
             rows.push(row);
             tilts = 0.0;

@@ -82,6 +82,15 @@ pub fn share(rows: &mut [Row]) {
     }
 }
 
+/// Whether a row says of another method's shader what that shader's own row says.
+pub(crate) fn tells_of(row: &Row, shader: &Row) -> bool {
+    shader.domain.starts_with(DOMAIN)
+        && !row.domain.starts_with(DOMAIN)
+        && row.term == shader.term
+        && row.method.split(',').next() == Some(shader.method.as_str())
+        && row.instructions == shader.instructions
+}
+
 /// A material in which a term has something to do, and what it has beside the plain one.
 fn document(term: &Term) -> (Document, &'static str) {
     let mut document = Document::with_surface("measured");

@@ -1,0 +1,219 @@
+//! What texels of normal maps mean and what storing them costs: 8 bits, two channels, BC5's blocks; and height fields: moved
+//! vertices with the old and the derived normal, parallax, fine geometry.
+
+use halfvector_maps::blend::texel_from_normal;
+use halfvector_maps::derivative::normal_from_slopes;
+use halfvector_maps::height::normal_from_height;
+use halfvector_maps::normal::normal_from_texel;
+use halfvector_maps::parallax::{parallax_occlusion, parallax_offset};
+use halfvector_maps::texel::{normal_from_texel_snorm, normal_from_texel_two_channel, texel_from_normal_snorm};
+
+use super::ibl::unit;
+use crate::error::Errors;
+use crate::{Effort, Row};
+
+type Vector = [f64; 3];
+
+fn degrees_between(a: Vector, b: Vector) -> f64 {
+    let apart = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
+    2.0 * (0.5 * apart).min(1.0).asin().to_degrees()
+}
+
+/// Measures decoding and heights.
+pub(super) fn rows(effort: Effort) -> Vec<Row> {
+    let mut rows = decoded(effort.pick(2_000, 20_000));
+    rows.extend(odd_texels());
+    rows.extend(heights(effort.pick(1_000, 10_000)));
+    rows
+}
+
+/// A code of 8 bits, as a sampler gives it.
+fn eight_bits(color: Vector) -> Vector {
+    color.map(|c| (c.clamp(0.0, 1.0) * 255.0).round() / 255.0)
+}
+
+/// A channel of a 4 x 4 block of BC4: two ends of 8 bits and six steps between, the nearest for each texel. Two such make BC5.
+fn bc4(block: [f64; 16]) -> [f64; 16] {
+    let low = (block.iter().copied().fold(1.0, f64::min) * 255.0).floor() / 255.0;
+    let high = (block.iter().copied().fold(0.0, f64::max) * 255.0).ceil() / 255.0;
+    block.map(|c| if high > low { low + ((c - low) / (high - low) * 7.0).round() / 7.0 * (high - low) } else { low })
+}
+
+/// Normals of tilt 0..80 degrees, stored and read again.
+fn decoded(count: usize) -> Vec<Row> {
+    let normal = |tilt: f64, azimuth: f64| {
+        let (sine, cosine) = tilt.to_radians().sin_cos();
+        [sine * azimuth.cos(), sine * azimuth.sin(), cosine]
+    };
+    type Stored = fn(Vector) -> Vector;
+    let methods: [(&str, Stored); 4] = [
+        ("unorm", |n| normal_from_texel(eight_bits(texel_from_normal(n)), 1.0, false)),
+        ("snorm", |n| normal_from_texel_snorm(eight_bits(texel_from_normal_snorm(n)), 1.0, false)),
+        ("two_channel", |n| normal_from_texel_two_channel(eight_bits(texel_from_normal(n)), 1.0, false)),
+        ("unorm, 16 bits", |n| {
+            let color = texel_from_normal(n).map(|c| (c * 65535.0).round() / 65535.0);
+            normal_from_texel(color, 1.0, false)
+        }),
+    ];
+    const DOMAIN: &str = "8-bit codes, normals of tilt 0..80 deg; angle to the stored normal in degrees";
+    let mut errors: [Errors; 5] = std::array::from_fn(|_| Errors::default());
+    for k in 0..count {
+        let spread = |g: f64| (0.5 + g * k as f64).fract();
+        let (tilt, azimuth) = (80.0 * spread(0.754_877_666), std::f64::consts::TAU * spread(0.569_840_291));
+        let n = normal(tilt, azimuth);
+        for (errors, (_, stored)) in errors.iter_mut().zip(&methods) {
+            errors.add(degrees_between(stored(n), n), || format!("tilt {tilt:.1} deg"));
+        }
+        // A block of BC5 holds normals that differ by some degrees.
+        let block: [Vector; 16] = std::array::from_fn(|i| {
+            normal((tilt + 6.0 * ((i % 4) as f64 / 3.0 - 0.5)).clamp(0.0, 80.0), azimuth + 0.1 * (i / 4) as f64)
+        });
+        let channel = |c: usize| bc4(block.map(|n| texel_from_normal(n)[c]));
+        let (x, y) = (channel(0), channel(1));
+        for (i, &n) in block.iter().enumerate() {
+            let found = normal_from_texel_two_channel([x[i], y[i], 0.0], 1.0, false);
+            errors[4].add(degrees_between(found, n), || format!("tilt {tilt:.1} deg"));
+        }
+    }
+    let names = methods.iter().map(|(name, _)| *name).chain(["two_channel, BC5"]);
+    let bytes = [4, 4, 2, 8, 1];
+    names
+        .zip(errors)
+        .zip(bytes)
+        .map(|((name, errors), bytes)| {
+            let mut row = Row::new("normal_decode", name, DOMAIN);
+            errors.fill(&mut row);
+            row.bytes = Some(bytes);
+            row
+        })
+        .collect()
+}
+
+/// Texels that say no direction above the surface: every reading is a unit vector, and says where it points.
+fn odd_texels() -> Vec<Row> {
+    let texels = [
+        ("(128, 128, 255), flat", [128.0, 128.0, 255.0]),
+        ("(255, 128, 128), z = 0", [255.0, 128.0, 128.0]),
+        ("(128, 128, 128), no direction", [128.0, 128.0, 128.0]),
+        ("(0, 0, 0), black", [0.0; 3]),
+        ("(128, 128, 0), below the surface", [128.0, 128.0, 0.0]),
+    ];
+    type Read = fn(Vector) -> Vector;
+    let methods: [(&str, Read); 3] = [
+        ("unorm", |c| normal_from_texel(c, 1.0, false)),
+        ("snorm", |c| normal_from_texel_snorm(c, 1.0, false)),
+        ("two_channel", |c| normal_from_texel_two_channel(c, 1.0, false)),
+    ];
+    let row = |(name, code): (&str, Vector), (method, read): (&str, Read)| {
+        let found = read(code.map(|c| c / 255.0));
+        let domain = format!("texel {name}; angle to straight up in degrees");
+        let mut row = Row::new("normal_decode", method, &domain);
+        let angle = degrees_between(found, [0.0, 0.0, 1.0]);
+        (row.error_max, row.at) = (Some(angle), Some(format!("{found:.4?}")));
+        row.not_finite = Some(u64::from(!found.iter().all(|x| x.is_finite())));
+        row
+    };
+    texels.into_iter().flat_map(|texel| methods.map(|method| row(texel, method))).collect()
+}
+
+/// The height field over texture coordinates, 0..1, and its slopes.
+fn field([u, v]: [f64; 2]) -> f64 {
+    let tau = std::f64::consts::TAU;
+    0.5 + 0.4 * (2.0 * tau * u).sin() * (tau * v).cos() + 0.05 * (5.0 * tau * (u + v)).sin()
+}
+
+fn slopes([u, v]: [f64; 2]) -> [f64; 2] {
+    const STEP: f64 = 1e-5;
+    let by = |du: f64, dv: f64| (field([u + du, v + dv]) - field([u - du, v - dv])) / (2.0 * STEP);
+    [by(STEP, 0.0), by(0.0, STEP)]
+}
+
+/// Height of the field's white over its black, in edges of the texture.
+const DEPTH: f64 = 0.05;
+/// A pixel of a picture of 400 pixels that shows the texture once.
+const PIXEL: f64 = 1.0 / 400.0;
+/// Squares along a side of the moved mesh.
+const SQUARES: f64 = 64.0;
+
+/// The shading normal of a relief on a square, seen from 30 degrees aside: where the line of sight meets the relief, against the
+/// relief's own normal there.
+fn heights(count: usize) -> Vec<Row> {
+    const DOMAIN: &str = "waves 0.05 high on a square of 1, seen 30 deg aside, pixels of 1/400; angle to the relief's normal where \
+                          the line of sight meets it, in degrees";
+    // v runs down, against y.
+    let normal = |[u, v]: [f64; 2]| normal_from_slopes(DEPTH * u, -DEPTH * v);
+    let view = unit([0.5, 0.0, 0.866_025_403_784]);
+    let (up, tangent) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]);
+    let offset = parallax_offset(view, up, tangent, DEPTH);
+    let names = ["report", "derived", "moved vertices, their own normals", "parallax occlusion", "flat"];
+    let mut errors: [Errors; 5] = std::array::from_fn(|_| Errors::default());
+    for k in 0..count {
+        let spread = |g: f64| 0.15 + 0.7 * (0.5 + g * k as f64).fract();
+        // The line of sight enters the relief's top here.
+        let enters = [spread(0.754_877_666), spread(0.569_840_291)];
+        let seen = traced(enters, offset);
+        let truth = normal(slopes(seen));
+        // A moved mesh is hit where the relief is, but for what its squares leave out.
+        let corners = [0, 1].map(|i| (seen[i] * SQUARES).floor() / SQUARES);
+        let coarse = |u: f64, v: f64| {
+            let [s, t] = [(u - corners[0]) * SQUARES, (v - corners[1]) * SQUARES];
+            let at = |i: f64, j: f64| field([corners[0] + i / SQUARES, corners[1] + j / SQUARES]);
+            if s + t <= 1.0 {
+                at(0.0, 0.0) + s * (at(1.0, 0.0) - at(0.0, 0.0)) + t * (at(0.0, 1.0) - at(0.0, 0.0))
+            } else {
+                at(1.0, 1.0) + (1.0 - s) * (at(0.0, 1.0) - at(1.0, 1.0)) + (1.0 - t) * (at(1.0, 0.0) - at(1.0, 1.0))
+            }
+        };
+        const STEP: f64 = 1e-7;
+        let [u, v] = [0, 1].map(|i| corners[i] + ((seen[i] - corners[i]) * SQUARES).clamp(0.01, 0.98) / SQUARES);
+        let face = normal([(coarse(u + STEP, v) - coarse(u, v)) / STEP, (coarse(u, v + STEP) - coarse(u, v)) / STEP]);
+        // Differences between neighbouring pixels of the height that the pixel reads.
+        let height = |du: f64, dv: f64| DEPTH * field([seen[0] + du, seen[1] + dv]);
+        let (h_x, h_y) = (height(PIXEL, 0.0) - height(0.0, 0.0), height(0.0, PIXEL) - height(0.0, 0.0));
+        let derived = normal_from_height([PIXEL, 0.0, 0.0], [0.0, -PIXEL, 0.0], up, h_x, h_y);
+        let found =
+            [up, derived, face, normal(slopes(parallax_occlusion(field, enters, offset))), normal(slopes(enters))];
+        for (errors, n) in errors.iter_mut().zip(found) {
+            errors.add(degrees_between(n, truth), || format!("uv {seen:.3?}"));
+        }
+    }
+    let names = names.map(|name| if name == "flat" { "normal map without parallax" } else { name });
+    names
+        .iter()
+        .zip(errors)
+        .map(|(name, errors)| {
+            let mut row = Row::new("height_normals", name, DOMAIN);
+            errors.fill(&mut row);
+            row
+        })
+        .collect()
+}
+
+/// Where a line of sight that enters at `from` meets the relief, by fine steps: true geometry.
+fn traced(from: [f64; 2], offset: [f64; 2]) -> [f64; 2] {
+    const STEPS: usize = 4000;
+    let at = |t: f64| [from[0] + t * offset[0], from[1] + t * offset[1]];
+    let step = (1..=STEPS).find(|&i| field(at(i as f64 / STEPS as f64)) >= 1.0 - i as f64 / STEPS as f64);
+    at(step.unwrap_or(STEPS) as f64 / STEPS as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derived_normals_are_near_the_relief_and_the_old_ones_are_not() {
+        let rows = rows(Effort::Quick);
+        let rms = |term: &str, method: &str| {
+            rows.iter()
+                .find(|row| row.term == term && row.method == method)
+                .and_then(|row| row.error_rms)
+                .expect("a row")
+        };
+        assert!(rms("height_normals", "derived") < 1.0, "{}", rms("height_normals", "derived"));
+        assert!(rms("height_normals", "report") > 5.0);
+        assert!(rms("height_normals", "parallax occlusion") < rms("height_normals", "normal map without parallax"));
+        assert!(rms("normal_decode", "unorm") < 0.5 && rms("normal_decode", "unorm, 16 bits") < 0.01);
+        assert!(rows.iter().all(|row| row.not_finite.unwrap_or(0) == 0));
+    }
+}
