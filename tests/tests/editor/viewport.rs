@@ -146,6 +146,8 @@ const TRIANGLE: &str = r#"{
 #[test]
 fn two_sides_are_compared_and_their_difference_is_told() {
     let mut harness = open(Options::default());
+    // The row of a small window has room for the first tools only.
+    click(&mut harness, "More tools");
     click(&mut harness, "Compare");
     click(&mut harness, "Difference");
     settle(&mut harness);

@@ -97,6 +97,9 @@ fn parameters(ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
         ui.weak("None. Expose an input in its menu to let users of the material set it.");
         return;
     }
+    let own = Library::standard().of(document);
+    // At the top level the session has it already.
+    let library = if session.group().is_none() { session.library() } else { &own };
     let count = document.parameters.len();
     let mut moved = None;
     for (place, one) in document.parameters.iter().enumerate() {
@@ -111,7 +114,7 @@ fn parameters(ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
                 {
                     moved = Some((place, place + 1));
                 }
-                let of = node_label(&document.graph, Library::standard(), &one.socket.node);
+                let of = node_label(&document.graph, library, &one.socket.node);
                 let text = format!("{of} · {}", super::row::in_words(&one.socket.socket));
                 if ui.link(text).on_hover_text("Show the node").clicked() {
                     actions.push(Action::Show(one.socket.node.clone()));
