@@ -156,13 +156,12 @@ impl Functions {
         let response = ui.add(field).on_hover_text("Its id in files and shaders; Enter takes it");
         named_text(&response, &name, "Name of the function");
         if response.changed() {
-            self.name = Some(name.clone());
+            (self.name, self.refused) = (Some(name.clone()), None);
         }
         if response.lost_focus() {
             self.name = None;
             let is_given_up = ui.input(|input| input.key_pressed(Key::Escape));
             if is_given_up || name == id {
-                self.refused = None;
                 return;
             }
             match functions::renamed(document, id, &name) {

@@ -44,7 +44,8 @@ fn write_behind(window: &mut Window, function: &str, word: &str, text: &str) {
     let field = window.get_by_role_and_label(Role::TextInput, &label);
     field.focus();
     window.run_steps(2);
-    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Home);
+    let control = egui::Modifiers { ctrl: true, ..egui::Modifiers::COMMAND };
+    window.key_press_modifiers(control, egui::Key::Home);
     window.step();
     for _ in 0..whole[..at].chars().count() {
         window.key_press(egui::Key::ArrowRight);
@@ -104,7 +105,6 @@ fn a_function_is_renamed_in_use_and_removed_when_nothing_uses_it() {
         window.run_steps(3);
     };
     write_name(&mut window, "new_function", "Two words");
-    window.get_all_by_role(Role::Label).for_each(|n| println!("LABEL {:?} {:?}", n.label(), n.value()));
     assert!(window.query_by_label_contains("is no name of a function").is_some());
     write_name(&mut window, "new_function", "blend_it");
     let now = document(&window);
