@@ -57,6 +57,8 @@ pub(crate) enum Told {
     Progress(String, f32),
     /// How much noise the reference is left with, as a share of the light, and its paths for each pixel.
     Truth(f64, u64),
+    /// What of the material the reference leaves out: errors there are not the shader's.
+    Notes(Vec<String>),
     /// One way of shading against the truth.
     Row(Row),
     /// The furnace's picture and figures.
@@ -138,6 +140,7 @@ impl Bench {
         let options = RenderOptions { width: EDGE, height: EDGE, shadows: false, ..RenderOptions::default() };
         let loaded = job.light.as_ref().map(|light| &light.loaded);
         let mut reference = Reference::new(self.easel.scene(), loaded, options).map_err(|error| error.to_string())?;
+        outbox.send(Told::Notes(reference.notes().to_vec()));
         let truth = loop {
             reference.add_samples(16, &|_| {}).map_err(|error| error.to_string())?;
             let truth = reference.picture();
@@ -173,7 +176,7 @@ impl Bench {
                 methods.set(term, method).map_err(|error| error.to_string())?;
             }
             shot.light = match &job.light {
-                Some(known) if needs_bake(term) => Some(light(&known.source, &methods, |_| {})?),
+                Some(known) if needs_bake(term) => Some(light(&known.source, &methods)?),
                 known => known.clone(),
             };
             shot.stage.methods = methods;
@@ -194,7 +197,7 @@ impl Bench {
 
     fn furnace(&mut self, job: &Job, stale: &Stale, outbox: &Outbox<Told>) -> Result<(), String> {
         outbox.send(Told::Progress("The furnace".to_owned(), 0.0));
-        let white = light(&EnvironmentSource::White, &job.stage.methods, |_| {})?;
+        let white = light(&EnvironmentSource::White, &job.stage.methods)?;
         let stage = Stage {
             mesh: MeshSource::Builtin(BuiltinMesh::Sphere),
             environment: EnvironmentSource::White,

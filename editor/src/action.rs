@@ -28,8 +28,17 @@ pub enum Action {
     Select(Vec<NodeId>),
     /// Selects a node and brings it into view.
     Show(NodeId),
+    /// Goes to the graph that a node stands in, the top level's or a group's, selects it and brings it into view.
+    Find {
+        /// None for the top level.
+        group: Option<String>,
+        /// In that graph.
+        node: NodeId,
+    },
     /// Goes into groups, the outermost first, or out of them.
     Enter(Vec<String>),
+    /// Brings the text of a function of the document to the front.
+    EditFunction(String),
     /// Replaces the document by a new one, after asking when it is not saved.
     New,
     /// Replaces the document by a new one that begins as this, after asking when it is not saved.
@@ -57,6 +66,12 @@ pub enum Choose {
     Image(SocketRef),
     /// A folder to write the exported shader to.
     ExportFolder,
+}
+
+/// Shows the node that a shader calls by a path through groups.
+pub(crate) fn found(document: &Document, path: &str) -> Option<Action> {
+    let (group, node, _) = halfvector_graph::flatten::find(document, path)?;
+    Some(Action::Find { group: group.map(str::to_owned), node: node.to_owned() })
 }
 
 impl Action {

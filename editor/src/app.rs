@@ -15,13 +15,15 @@ mod status;
 use eframe::egui;
 use egui_tiles::{SimplificationOptions, TileId, Tiles, Tree, UiResponse};
 
+use halfvector_graph::document::NodeId;
+
 use crate::action::Action;
 use crate::app::files::{Files, Next};
 use crate::app::status::Messages;
 use crate::paint::Gpu;
 use crate::panes::{
-    accuracy::Accuracy, canvas::Canvas, code::Code, cost::Cost, inspector::Inspector, library::LibraryPane,
-    problems::Problems, viewport::Viewport,
+    accuracy::Accuracy, canvas::Canvas, code::Code, cost::Cost, functions::Functions, inspector::Inspector,
+    library::LibraryPane, problems::Problems, viewport::Viewport,
 };
 use crate::session::Session;
 use crate::stage::Stage;
@@ -39,6 +41,8 @@ pub enum Pane {
     Inspector,
     /// The shader.
     Code,
+    /// The material's own WGSL.
+    Functions,
     /// What is wrong.
     Problems,
     /// Materials to begin with.
@@ -51,11 +55,12 @@ pub enum Pane {
 
 impl Pane {
     /// All, in the order of the menu.
-    pub const ALL: [Pane; 8] = [
+    pub const ALL: [Pane; 9] = [
         Pane::Canvas,
         Pane::Viewport,
         Pane::Inspector,
         Pane::Code,
+        Pane::Functions,
         Pane::Problems,
         Pane::Library,
         Pane::Cost,
@@ -69,6 +74,7 @@ impl Pane {
             Pane::Viewport => "Viewport",
             Pane::Inspector => "Inspector",
             Pane::Code => "Code",
+            Pane::Functions => "Functions",
             Pane::Problems => "Problems",
             Pane::Library => "Library",
             Pane::Accuracy => "Accuracy",
@@ -93,6 +99,7 @@ struct Panes {
     viewport: Viewport,
     inspector: Inspector,
     code: Code,
+    functions: Functions,
     problems: Problems,
     library: LibraryPane,
     accuracy: Accuracy,
@@ -115,6 +122,7 @@ impl Editor {
             viewport: Viewport::new(context, &gpu),
             inspector: Inspector::new(context),
             code: Code::new(context),
+            functions: Functions::default(),
             problems: Problems::new(context),
             cost: Cost::new(context),
             library: LibraryPane::default(),
@@ -133,6 +141,11 @@ impl Editor {
     /// What the material is seen on.
     pub fn stage(&self) -> &Stage {
         self.panes.viewport.stage()
+    }
+
+    /// Who drew the picture that is shown: the GPU's name, `CPU` or `reference`; none before the first one.
+    pub fn drawn_by(&self) -> Option<&str> {
+        self.panes.viewport.drawn_by()
     }
 
     /// Whether all that is shown is up to date: no picture and no shader is being made, and no file read or written.
@@ -164,10 +177,17 @@ impl Editor {
             Action::Redo => return Ok(said("Done again", self.session.redo()?)),
             Action::Select(nodes) => self.session.select(nodes),
             Action::Enter(path) => self.session.enter(path),
-            Action::Show(node) => {
-                self.session.select([node.clone()]);
-                self.panes.canvas.show_node(node);
-                layout::show(&mut self.tree, Pane::Canvas);
+            Action::Show(node) => self.bring_into_view(node),
+            Action::Find { group, node } => {
+                let way = group.map(|group| self.session.way_to(&group)).unwrap_or_default();
+                if self.session.path() != way {
+                    self.session.enter(way);
+                }
+                self.bring_into_view(node);
+            }
+            Action::EditFunction(id) => {
+                self.panes.functions.choose(id);
+                layout::show(&mut self.tree, Pane::Functions);
             }
             Action::New => self.ask(Next::New),
             Action::NewFrom(document) => self.ask(Next::NewFrom(document)),
@@ -178,6 +198,12 @@ impl Editor {
             Action::Say(text) => return Ok(text),
         }
         Ok(String::new())
+    }
+
+    fn bring_into_view(&mut self, node: NodeId) {
+        self.session.select([node.clone()]);
+        self.panes.canvas.show_node(node);
+        layout::show(&mut self.tree, Pane::Canvas);
     }
 
     /// Draws the window into a `Ui` that fills it.
@@ -242,6 +268,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
             Pane::Viewport => panes.viewport.show(ui, session, &mut panes.thumbnails, actions),
             Pane::Inspector => panes.inspector.show(ui, session, panes.problems.notices(), actions),
             Pane::Code => panes.code.show(ui, session, panes.viewport.stage(), actions),
+            Pane::Functions => panes.functions.show(ui, session, actions),
             Pane::Problems => panes.problems.show(ui, session, actions),
             Pane::Library => panes.library.show(ui, &mut panes.thumbnails, actions),
             Pane::Accuracy => panes.accuracy.show(ui, session, &mut panes.viewport),
@@ -251,7 +278,11 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     }
 
     fn tab_title_for_pane(&mut self, pane: &Pane) -> egui::WidgetText {
-        let count = if *pane == Pane::Problems { self.panes.problems.count(self.session) } else { 0 };
+        let count = match pane {
+            Pane::Problems => self.panes.problems.count(self.session),
+            Pane::Functions => Functions::wrong(self.session),
+            _ => 0,
+        };
         if count > 0 { format!("{} ({count})", pane.title()).into() } else { pane.title().into() }
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui;
 use halfvector_graph::method::Methods;
-use halfvector_ibl::{BakedEnvironment, LoadedEnvironment, bake_with_progress};
+use halfvector_ibl::{BakedEnvironment, LoadedEnvironment, bake_while};
 use halfvector_scene::{EnvironmentSource, bake_options};
 
 use crate::work::Worker;
@@ -57,15 +57,18 @@ pub(crate) struct Environments {
 impl Environments {
     /// Starts the thread.
     pub(crate) fn new(context: &egui::Context) -> Environments {
-        let worker = Worker::start_telling("environments", context, |job: Job, _, outbox| {
+        let worker = Worker::start_telling("environments", context, |job: Job, stale, outbox| {
             let mut told = 0.0;
-            let light = light(&job.key.source, &job.methods, |done| {
+            let light = light_while(&job.key.source, &job.methods, |done| {
                 if done - told > 0.02 {
                     told = done;
                     outbox.send(Told::Progress(done));
                 }
+                !stale.is_stale()
             });
-            outbox.send(Told::Done(job.key, light));
+            if let Some(light) = light.transpose() {
+                outbox.send(Told::Done(job.key, light));
+            }
         });
         Environments { worker: worker.ok(), ready: Vec::new(), baking: None, failed: None }
     }
@@ -141,6 +144,12 @@ impl Environments {
         Err(())
     }
 
+    /// Gives up what is being baked. What was done of it is lost.
+    pub(crate) fn cancel(&mut self) {
+        self.worker.iter().for_each(Worker::cancel);
+        self.baking = None;
+    }
+
     /// Forgets that an environment could not be loaded: it may be tried again.
     pub(crate) fn forgive(&mut self) {
         self.failed = None;
@@ -148,13 +157,18 @@ impl Environments {
 }
 
 /// Loads and bakes an environment.
-pub(crate) fn light(
+pub(crate) fn light(source: &EnvironmentSource, methods: &Methods) -> Result<Arc<Light>, String> {
+    light_while(source, methods, |_| true)?.ok_or_else(|| "the bake ended early".to_owned())
+}
+
+/// The same, while `go_on`, which learns the share that is done, says so; none when it did not.
+fn light_while(
     source: &EnvironmentSource,
     methods: &Methods,
-    mut progress: impl FnMut(f32),
-) -> Result<Arc<Light>, String> {
+    mut go_on: impl FnMut(f32) -> bool,
+) -> Result<Option<Arc<Light>>, String> {
     let loaded = source.load().map_err(|error| error.to_string())?.ok_or("there is no environment")?;
     let options = bake_options(source, methods, &loaded);
-    let baked = Arc::new(bake_with_progress(&loaded, &options, &mut progress));
-    Ok(Arc::new(Light { source: source.clone(), loaded, baked }))
+    let baked = bake_while(&loaded, &options, &mut go_on);
+    Ok(baked.map(|baked| Arc::new(Light { source: source.clone(), loaded, baked: Arc::new(baked) })))
 }

@@ -4,6 +4,7 @@
 pub(crate) mod clerk;
 pub(crate) mod difference;
 mod folders;
+mod leftovers;
 pub(crate) mod record;
 pub(crate) mod relative;
 pub(crate) mod settings;

@@ -66,6 +66,11 @@ impl History {
         }
     }
 
+    /// Of how many edits the last step is made; 0 when there is none.
+    pub(crate) fn parts_of_undo(&self) -> usize {
+        self.done.last().map_or(0, |step| listed(step.inverse.clone()).len())
+    }
+
     /// The name of the step that undo would take back.
     pub(crate) fn undo_name(&self) -> Option<&str> {
         self.done.last().map(|step| step.name.as_str())
@@ -85,17 +90,75 @@ fn step(from: &mut Vec<Step>, to: &mut Vec<Step>, document: &mut Document) -> Re
 }
 
 /// The inverse of two edits, the later one's first. Of what is set again and again only the first inverse is kept, so that a
-/// long drag stays small.
+/// long drag or a text that is written stays small.
 fn joined(later: Edit, earlier: Edit) -> Edit {
-    let same = match (&later, &earlier) {
+    let mut parts = listed(earlier);
+    let mut fresh: Vec<Edit> = listed(later);
+    // What the earlier inverse sets anyway need not be set before. That holds while it does nothing but set: then no part of
+    // it depends on another.
+    if parts.iter().chain(&fresh).all(|edit| is_setting(None, edit)) {
+        fresh.retain(|later| !parts.iter().any(|earlier| is_same(later, earlier)));
+    }
+    fresh.append(&mut parts);
+    match <[Edit; 1]>::try_from(fresh) {
+        Ok([only]) => only,
+        Err(many) => Edit::Many(many),
+    }
+}
+
+/// The edits of a list, those of lists in it too.
+fn listed(edit: Edit) -> Vec<Edit> {
+    let mut flat = Vec::new();
+    let mut waiting = vec![edit];
+    while let Some(edit) = waiting.pop() {
+        match edit {
+            Edit::Many(edits) => waiting.extend(edits.into_iter().rev()),
+            Edit::In { group, edit } => match *edit {
+                Edit::Many(edits) => {
+                    let inside = |edit| Edit::In { group: group.clone(), edit: Box::new(edit) };
+                    waiting.extend(edits.into_iter().rev().map(inside));
+                }
+                edit => flat.push(Edit::In { group, edit: Box::new(edit) }),
+            },
+            edit => flat.push(edit),
+        }
+    }
+    flat
+}
+
+/// Whether an edit gives one thing another value, and changes nothing else. `group` is what it is in.
+fn is_setting(group: Option<&str>, edit: &Edit) -> bool {
+    match edit {
+        Edit::In { group: inner, edit } => group.is_none() && is_setting(Some(inner), edit),
+        Edit::SetValue { .. }
+        | Edit::MoveNode { .. }
+        | Edit::SetLabel { .. }
+        | Edit::SetFrame { .. }
+        | Edit::SetComment { .. }
+        | Edit::SetParameter { .. }
+        | Edit::SetName { .. }
+        | Edit::SetSurface { .. }
+        | Edit::SetInterface { .. }
+        | Edit::SetFunction { .. } => true,
+        _ => false,
+    }
+}
+
+/// Whether two edits set the same thing.
+fn is_same(a: &Edit, b: &Edit) -> bool {
+    match (a, b) {
+        (Edit::In { group: a, edit: of_a }, Edit::In { group: b, edit: of_b }) => a == b && is_same(of_a, of_b),
         (Edit::SetValue { socket: a, .. }, Edit::SetValue { socket: b, .. }) => a == b,
         (Edit::MoveNode { id: a, .. }, Edit::MoveNode { id: b, .. })
-        | (Edit::SetLabel { id: a, .. }, Edit::SetLabel { id: b, .. }) => a == b,
+        | (Edit::SetLabel { id: a, .. }, Edit::SetLabel { id: b, .. })
+        | (Edit::SetFrame { id: a, .. }, Edit::SetFrame { id: b, .. })
+        | (Edit::SetComment { id: a, .. }, Edit::SetComment { id: b, .. })
+        | (Edit::SetFunction { id: a, .. }, Edit::SetFunction { id: b, .. })
+        | (Edit::SetInterface { group: a, .. }, Edit::SetInterface { group: b, .. }) => a == b,
         (Edit::SetParameter { place: a, .. }, Edit::SetParameter { place: b, .. }) => a == b,
         (Edit::SetName { .. }, Edit::SetName { .. }) | (Edit::SetSurface { .. }, Edit::SetSurface { .. }) => true,
         _ => false,
-    };
-    if same { earlier } else { Edit::Many(vec![later, earlier]) }
+    }
 }
 
 fn values_of(edit: &mut Edit, change: &mut dyn FnMut(&mut Value)) {

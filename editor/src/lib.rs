@@ -9,14 +9,17 @@
 mod accuracy;
 mod action;
 mod app;
+mod colors;
 mod environments;
 mod files;
+mod functions;
 mod history;
 mod library;
 mod paint;
 mod palette;
 mod panes;
 mod session;
+mod sockets;
 mod stage;
 mod theme;
 mod thumbnails;

@@ -13,6 +13,8 @@ use halfvector_graph::value::SocketType;
 use crate::theme;
 use search::Entry;
 
+/// What is chosen when a new function is wanted: the category of a document's functions, and no definition.
+pub(crate) const NEW_FUNCTION: &str = "custom";
 /// How many nodes are remembered as recently used.
 const RECENT: usize = 8;
 const SIZE: Vec2 = vec2(560.0, 380.0);
@@ -76,7 +78,13 @@ impl Palette {
         filter: Option<String>,
         offers: impl Fn(&NodeDef) -> bool,
     ) {
-        let entries: Vec<Entry> = library.iter().filter(|def| offers(def)).map(Entry::new).collect();
+        let mut entries: Vec<Entry> = library.iter().filter(|def| offers(def)).map(Entry::new).collect();
+        if filter.is_none() {
+            let synonyms = ["wgsl", "code", "script", "expression", "custom"].map(str::to_owned).to_vec();
+            let help =
+                "A node of your own: a function in WGSL, which stands in the document. Its arguments are the inputs.";
+            entries.push(Entry::of(NEW_FUNCTION, "New function", synonyms, help));
+        }
         let mut open = Open {
             at,
             entries,

@@ -4,6 +4,7 @@ pub(crate) mod accuracy;
 pub(crate) mod canvas;
 pub(crate) mod code;
 pub(crate) mod cost;
+pub(crate) mod functions;
 pub(crate) mod inspector;
 pub(crate) mod library;
 pub(crate) mod problems;

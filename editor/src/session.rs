@@ -6,9 +6,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use halfvector_graph::check::{Problem, check};
-use halfvector_graph::document::{Document, Graph, Link, Node, NodeId, SocketRef};
+use halfvector_graph::document::{Document, Graph, Link, Node, NodeId, SocketRef, group_of};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::library::Library;
+use halfvector_graph::library::custom::read_function;
 use halfvector_graph::value::Value;
 
 use crate::files::relative::moved as moved_value;
@@ -35,6 +36,10 @@ pub struct Session {
     heat: BTreeMap<NodeId, f32>,
     /// Of the graph that is worked on.
     library: Library,
+    /// The last text of each function that was sound: while it is wrong its nodes keep their sockets.
+    sound: BTreeMap<String, String>,
+    /// The document with those texts, while any function is wrong.
+    as_it_was: Option<Arc<Document>>,
 }
 
 /// The material that a new document holds, as the text of its file.
@@ -65,7 +70,7 @@ impl Session {
 
     fn of_shared(document: Arc<Document>, file: Option<PathBuf>) -> Session {
         static NUMBERS: AtomicU64 = AtomicU64::new(0);
-        Session {
+        let mut session = Session {
             number: NUMBERS.fetch_add(1, Ordering::Relaxed),
             path: Vec::new(),
             history: History::default(),
@@ -75,14 +80,23 @@ impl Session {
             selection: BTreeSet::new(),
             heat: BTreeMap::new(),
             problems: check(&document, Library::standard()),
-            library: Library::standard().of(&document),
+            library: Library::standard().clone(),
+            sound: BTreeMap::new(),
+            as_it_was: None,
             document,
-        }
+        };
+        session.keep_what_is_there();
+        session
     }
 
     /// The document as it is now.
     pub fn document(&self) -> &Arc<Document> {
         &self.document
+    }
+
+    /// The document with each function that is wrong as it was when it was right last: what is still to be seen of it.
+    pub(crate) fn sound_document(&self) -> &Arc<Document> {
+        self.as_it_was.as_ref().unwrap_or(&self.document)
     }
 
     /// Names this state of the document: what is derived from it is stale when this differs.
@@ -188,6 +202,11 @@ impl Session {
         [self.history.undo_name(), self.history.redo_name()]
     }
 
+    /// Of how many edits the last step of undo is made: 0 when there is none.
+    pub fn parts_of_undo(&self) -> usize {
+        self.history.parts_of_undo()
+    }
+
     /// Changes the document. An edit that cannot be made changes nothing and says why.
     pub(crate) fn edit(&mut self, name: String, edit: &Edit, merge: Option<String>) -> Result<(), String> {
         let document = Arc::make_mut(&mut self.document);
@@ -238,11 +257,59 @@ impl Session {
         let mut selection = std::mem::take(&mut self.selection);
         selection.retain(|id| self.graph().nodes.contains_key(id));
         self.selection = selection;
-        let library = Library::standard().of(&self.document);
+        let library = self.library_of_document();
         self.library = match self.group().and_then(|group| self.document.groups.get(group)) {
             Some(group) => library.inside(group),
             None => library,
         };
+    }
+
+    /// The shipped nodes and the document's own. A function that is wrong at the moment stays the node that it was.
+    fn library_of_document(&mut self) -> Library {
+        let mut wrong = false;
+        for (id, text) in &self.document.functions {
+            if read_function(id, text).is_ok() {
+                if self.sound.get(id) != Some(text) {
+                    self.sound.insert(id.clone(), text.clone());
+                }
+            } else {
+                wrong = true;
+            }
+        }
+        if !wrong {
+            self.as_it_was = None;
+            return Library::standard().of(&self.document);
+        }
+        let as_it_was = Arc::make_mut(self.as_it_was.insert(self.document.clone()));
+        for (id, text) in &mut as_it_was.functions {
+            if let Some(sound) = self.sound.get(id) {
+                text.clone_from(sound);
+            }
+        }
+        Library::standard().of(as_it_was)
+    }
+
+    /// The groups to enter for the inside of a group, the outermost first: the shortest way from the top level, or the group
+    /// alone when nothing uses it.
+    pub(crate) fn way_to(&self, group: &str) -> Vec<String> {
+        let mut ways: Vec<Vec<String>> = vec![Vec::new()];
+        let mut seen = BTreeSet::new();
+        let mut next = 0;
+        while let Some(way) = ways.get(next).cloned() {
+            next += 1;
+            let Some(graph) = self.document.graph_of(way.last().map(String::as_str)) else { continue };
+            for inner in graph.nodes.values().filter_map(|node| group_of(&node.node)) {
+                let mut further = way.clone();
+                further.push(inner.to_owned());
+                if inner == group {
+                    return further;
+                }
+                if seen.insert(inner.to_owned()) {
+                    ways.push(further);
+                }
+            }
+        }
+        vec![group.to_owned()]
     }
 
     /// A document was written to a file, which is this session's from now on. Image paths start at its folder.

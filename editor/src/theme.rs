@@ -32,12 +32,14 @@ pub(crate) fn category_color(category: &str) -> Color32 {
     }
 }
 
+// These four are seen on both grounds.
+
 /// Something is wrong.
-pub(crate) const ERROR: Color32 = Color32::from_rgb(0xe8, 0x6a, 0x5e);
+pub(crate) const ERROR: Color32 = Color32::from_rgb(0xe0, 0x5c, 0x50);
 /// Something may be wrong.
-pub(crate) const WARNING: Color32 = Color32::from_rgb(0xe3, 0xb3, 0x41);
+pub(crate) const WARNING: Color32 = Color32::from_rgb(0xcf, 0x93, 0x22);
 /// Something is well.
-pub(crate) const GOOD: Color32 = Color32::from_rgb(0x6f, 0xbf, 0x73);
+pub(crate) const GOOD: Color32 = Color32::from_rgb(0x48, 0xa6, 0x55);
 /// What is chosen.
 pub(crate) const ACCENT: Color32 = Color32::from_rgb(0x4d, 0x9d, 0xe0);
 
@@ -127,11 +129,21 @@ pub(crate) fn install(context: &egui::Context) {
         style.visuals.faint_bg_color = Color32::from_rgb(0x23, 0x26, 0x2b);
         style.visuals.window_stroke = Stroke::new(1.0, Color32::from_rgb(0x3a, 0x3f, 0x47));
     });
+    context.style_mut_of(egui::Theme::Light, |style| {
+        style.visuals.weak_text_alpha = 0.75;
+        style.visuals.widgets.inactive.weak_bg_fill = Color32::from_rgb(0xea, 0xec, 0xef);
+        style.visuals.widgets.inactive.bg_stroke = Stroke::new(1.0, Color32::from_rgb(0xd2, 0xd6, 0xdb));
+    });
     for theme in [egui::Theme::Dark, egui::Theme::Light] {
         context.style_mut_of(theme, |style| {
+            // The letters of what is chosen, and links.
+            let [chosen, link] = match theme {
+                egui::Theme::Dark => [Color32::from_rgb(0xcc, 0xe4, 0xfb), ACCENT],
+                egui::Theme::Light => [Color32::from_rgb(0x10, 0x42, 0x70), Color32::from_rgb(0x1c, 0x6c, 0xb0)],
+            };
             style.visuals.selection.bg_fill = ACCENT.gamma_multiply(0.45);
-            style.visuals.selection.stroke.color = ACCENT;
-            style.visuals.hyperlink_color = ACCENT;
+            style.visuals.selection.stroke.color = chosen;
+            style.visuals.hyperlink_color = link;
             style.visuals.warn_fg_color = WARNING;
             style.visuals.error_fg_color = ERROR;
             style.visuals.window_corner_radius = CornerRadius::same(6);

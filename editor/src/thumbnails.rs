@@ -3,20 +3,16 @@
 //!
 //! A value is shown as a surface that glows with it, on a plane, or on a sphere when it depends on where it is seen from.
 
+mod preview;
+
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use eframe::egui::{self, Color32, Sense};
-use halfvector_graph::check::surface_node;
-use halfvector_graph::document::{Document, Link, Node, SocketRef};
-use halfvector_graph::file::to_json;
-use halfvector_graph::library::Library;
+use halfvector_graph::document::Document;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::ToneMap;
-use halfvector_graph::resolve::resolve_types;
-use halfvector_graph::value::{SocketType, Type, Value};
-use halfvector_graph::wiring::Wiring;
 use halfvector_scene::{BuiltinMesh, Camera, EnvironmentSource, MeshSource};
 
 use crate::environments::{Light, light};
@@ -56,9 +52,9 @@ struct Kept {
 pub(crate) struct Thumbnails {
     worker: Option<Worker<Vec<Subject>, Made>>,
     kept: HashMap<Arc<str>, Kept>,
-    /// What nodes show, as of a revision: the text is made once.
+    /// What nodes show, as of a revision, a folder and a level: the text is made once.
     nodes: HashMap<(String, String), Option<Subject>>,
-    revision: Option<(u64, PathBuf)>,
+    shown: Option<(u64, PathBuf, Vec<String>)>,
     /// Looked at since the last frame and not there, the newest last.
     wanted: Vec<Subject>,
     /// What the thread was given last.
@@ -90,7 +86,7 @@ impl Thumbnails {
             worker: worker.ok(),
             kept: HashMap::new(),
             nodes: HashMap::new(),
-            revision: None,
+            shown: None,
             wanted: Vec::new(),
             asked: HashSet::new(),
             frame: 0,
@@ -138,13 +134,13 @@ impl Thumbnails {
         output: &str,
         size: f32,
     ) -> egui::Response {
-        let now = (session.revision(), session.directory());
-        if self.revision.as_ref() != Some(&now) {
+        let now = (session.revision(), session.directory(), session.path().to_vec());
+        if self.shown.as_ref() != Some(&now) {
             self.nodes.clear();
-            self.revision = Some(now);
+            self.shown = Some(now);
         }
         let key = (node.to_owned(), output.to_owned());
-        let subject = self.nodes.entry(key).or_insert_with(|| preview(session, node, output)).clone();
+        let subject = self.nodes.entry(key).or_insert_with(|| preview::preview(session, node, output)).clone();
         let (rect, response) = ui.allocate_exact_size(egui::Vec2::splat(size), Sense::hover());
         self.paint(ui, rect, subject);
         let label = format!("{output} of {node}");
@@ -193,80 +189,6 @@ impl Thumbnails {
     }
 }
 
-/// What shows an output of a node, if anything can.
-fn preview(session: &Session, node: &str, output: &str) -> Option<Subject> {
-    let (document, library) = (session.document(), Library::standard());
-    let ty = resolve_types(&document.graph, library).get(node)?.output(output)?;
-    if ty == SocketType::Surface {
-        let key = format!("material {}", to_json(document)).into();
-        let (document, directory) = (document.clone(), session.directory());
-        return Some(Subject { key, document, directory, mesh: BuiltinMesh::Sphere, is_lit: true });
-    }
-    let (cut, mesh) = glowing(document, node, output, ty)?;
-    // Positions do not matter, and the cut has none.
-    let key = format!("value {} {}", session.directory().display(), to_json(&cut)).into();
-    Some(Subject { key, document: cut.into(), directory: session.directory(), mesh, is_lit: false })
-}
-
-/// The part of a document that an output depends on, as a surface that glows with it, and what that is seen on.
-fn glowing(document: &Document, node: &str, output: &str, ty: SocketType) -> Option<(Document, BuiltinMesh)> {
-    let mut cut = Document::new("preview");
-    cut.groups.clone_from(&document.groups);
-    let upstream = Wiring::new(&document.graph).order(&[node]).ok()?;
-    for id in upstream {
-        cut.graph.nodes.insert(id.to_owned(), document.graph.nodes.get(id)?.clone());
-    }
-    let nodes = &cut.graph.nodes;
-    let inside = |link: &&Link| nodes.contains_key(&link.from.node) && nodes.contains_key(&link.to.node);
-    cut.graph.links = document.graph.links.iter().filter(inside).cloned().collect();
-    let depends_on_view = cut.graph.nodes.values().any(|node| {
-        node.node.starts_with("geometry/")
-            || ["coordinates/spherical", "coordinates/cylindrical", "coordinates/matcap", "coordinates/box"]
-                .contains(&node.node.as_str())
-    });
-    let is_direction = document.graph.nodes.get(node).is_some_and(|node| {
-        let directions = ["geometry/tangent", "geometry/bitangent", "geometry/view_dir", "geometry/mirror_dir"];
-        node.node.contains("normal") || directions.contains(&node.node.as_str())
-    });
-    let mut from = SocketRef::new(node, output);
-    let add = |cut: &mut Document, from: SocketRef, node: Node, input: &str, output: &str| {
-        let id = cut.graph.free_id("preview");
-        cut.graph.nodes.insert(id.clone(), node);
-        cut.graph.links.push(Link::new(from, SocketRef::new(&id, input)));
-        SocketRef::new(&id, output)
-    };
-    match ty {
-        SocketType::Value(Type::F32 | Type::I32) => {}
-        SocketType::Value(Type::Vec3) if is_direction => {
-            // -1..1 becomes 0..1, as normal maps have it.
-            let half = || Value::Vec3([0.5; 3]);
-            let node = Node::new("math/multiply_add").with("b", half()).with("c", half());
-            from = add(&mut cut, from, node, "a", "out");
-        }
-        SocketType::Value(Type::Vec3) => {}
-        SocketType::Value(Type::Vec4) => {
-            from = add(&mut cut, from, Node::new("vector/separate_color_alpha"), "v", "color");
-        }
-        SocketType::Value(Type::Vec2) => {
-            let parts = add(&mut cut, from, Node::new("vector/separate2"), "v", "x");
-            let y = SocketRef::new(&parts.node, "y");
-            let color = add(&mut cut, parts, Node::new("vector/combine3"), "x", "out");
-            cut.graph.links.push(Link::new(y, SocketRef::new(&color.node, "y")));
-            from = color;
-        }
-        SocketType::Value(Type::Bool) => {
-            let node = Node::new("math/switch").with("when_true", Value::Number(1.0));
-            from = add(&mut cut, from, node, "condition", "out");
-        }
-        SocketType::Generic | SocketType::Texture | SocketType::Surface => return None,
-    }
-    let surface =
-        Node::new("surface/surface").with("base_color", Value::Vec3([0.0; 3])).with("specular", Value::Number(0.0));
-    add(&mut cut, from, surface, "emission", "");
-    surface_node(&cut, Library::standard())?;
-    Some((cut, if depends_on_view { BuiltinMesh::Sphere } else { BuiltinMesh::Plane }))
-}
-
 /// A picture of a subject; none when it has problems.
 fn drawn(subject: &Subject, easel: &mut Easel, gpu: &Gpu, studio: &mut Option<Arc<Light>>) -> Option<egui::ColorImage> {
     let vertical_fov = match (subject.is_lit, subject.mesh) {
@@ -283,7 +205,7 @@ fn drawn(subject: &Subject, easel: &mut Easel, gpu: &Gpu, studio: &mut Option<Ar
         ..Stage::default()
     };
     if subject.is_lit && studio.is_none() {
-        *studio = light(&EnvironmentSource::Studio, &Methods::default(), |_| {}).ok();
+        *studio = light(&EnvironmentSource::Studio, &Methods::default()).ok();
     }
     let size = [EDGE; 2];
     let shot = Shot {

@@ -3,9 +3,12 @@
 mod canvas;
 mod code;
 mod files;
+mod functions;
+mod groups;
 mod hands;
 mod inspector;
 mod library;
+mod measures;
 mod opening;
 mod palette;
 mod story;

@@ -12,6 +12,7 @@ use crate::load::{LoadedEnvironment, Source, StoredLevels, StoredLobe};
 use crate::lobe::narrow_lobe;
 use crate::resample::{cube_from_equirect, equirect_from_cube, preview_from_equirect};
 use std::borrow::Cow;
+use std::convert::Infallible;
 use std::f64::consts::LN_2;
 
 /// The largest face of level 0.
@@ -134,7 +135,32 @@ pub fn bake_with_progress(
     options: &BakeOptions,
     progress: &mut dyn FnMut(f32),
 ) -> BakedEnvironment {
-    progress(0.0);
+    let mut go_on = |done| {
+        progress(done);
+        Ok::<(), Infallible>(())
+    };
+    let Ok(baked) = bake_or_stop(environment, options, &mut go_on);
+    baked
+}
+
+/// [`bake`], which asks `go_on` on this thread between its steps whether to, with the share of the work that is done, rising
+/// from 0 to 1; none when it said no. The first step, the analysis of the map, is half of the work.
+pub fn bake_while(
+    environment: &LoadedEnvironment,
+    options: &BakeOptions,
+    go_on: &mut dyn FnMut(f32) -> bool,
+) -> Option<BakedEnvironment> {
+    let mut go_on = |done| if go_on(done) { Ok(()) } else { Err(()) };
+    bake_or_stop(environment, options, &mut go_on).ok()
+}
+
+/// Bakes, and stops with the error that `progress` gives.
+fn bake_or_stop<E>(
+    environment: &LoadedEnvironment,
+    options: &BakeOptions,
+    progress: &mut dyn FnMut(f32) -> Result<(), E>,
+) -> Result<BakedEnvironment, E> {
+    progress(0.0)?;
     let size = options.size.clamp(1, MAX_SIZE);
     let source = decoded(environment, options.decode_report);
     let roughness = level_roughness(options, size);
@@ -164,7 +190,7 @@ pub fn bake_with_progress(
     let spectrum = Spectrum::from_equirect(&map, band.max(options.quality.diffuse_band()).min(MAX_BAND));
     // The analysis is about half of the work, each level and the irradiance an equal part of the rest.
     let share_done = |level: usize| 0.5 + 0.5 * level as f32 / (roughness.len() + 1) as f32;
-    progress(share_done(0));
+    progress(share_done(0))?;
 
     let geometric = options.level_map == LevelMap::Geometric;
     let mut slope = Vec::new();
@@ -177,7 +203,7 @@ pub fn bake_with_progress(
         None => {
             let mut levels = Vec::new();
             for (i, &lobe) in lobes.iter().enumerate() {
-                progress(share_done(i));
+                progress(share_done(i))?;
                 let level = Level { lobe, size: face(i), quality: options.quality };
                 if geometric {
                     // log2 of the roughness rises by as much from each level to the next.
@@ -193,7 +219,7 @@ pub fn bake_with_progress(
             levels
         }
     };
-    progress(share_done(roughness.len()));
+    progress(share_done(roughness.len()))?;
     let diffuse_band = options.quality.diffuse_band();
     let irradiance = spectrum.synthesized(&DIFFUSE.kernel(diffuse_band), diffuse_band);
     let diffuse_size = options.irradiance_size.clamp(1, 512);
@@ -205,8 +231,8 @@ pub fn bake_with_progress(
         irradiance_over_pi: Cube { size: diffuse_size, texels: diffuse },
         irradiance_sh: irradiance_coefficients(&spectrum),
     };
-    progress(1.0);
-    baked
+    progress(1.0)?;
+    Ok(baked)
 }
 
 impl Quality {

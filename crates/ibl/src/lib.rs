@@ -31,7 +31,7 @@ pub mod save;
 
 pub use bake::{
     BakeOptions, BakedEnvironment, FilterJob, Filtered, LevelMap, MAX_SIZE, Prefilter, Quality, bake, bake_filtered_by,
-    bake_with_progress,
+    bake_while, bake_with_progress,
 };
 pub use builtin::{sky, studio, white};
 pub use cube::{Cube, direction_from_face, face_from_direction, texel_solid_angle};

@@ -91,6 +91,13 @@ impl Gpu {
         result
     }
 
+    /// Gives the device back to the system. From now on work on it fails.
+    pub(crate) fn close(&self) {
+        let why = "the device was given back".to_owned();
+        self.faults.lock().unwrap_or_else(PoisonError::into_inner).push(why);
+        self.device.destroy();
+    }
+
     /// Waits until all submitted work is done.
     pub(crate) fn wait(&self, doing: &str) -> Result<(), RenderError> {
         self.device.poll(wgpu::PollType::wait_indefinitely()).map(|_| ()).map_err(|error| RenderError::Lost {

@@ -60,6 +60,12 @@ impl Renderer {
         &self.gpu.name
     }
 
+    /// Gives the GPU and its memory back at once, whoever draws with it: what is being drawn ends with an error of the device
+    /// ([`RenderError::is_of_device`]), and so does what is asked for later. Dropping the renderer waits for what is being drawn.
+    pub fn close(&self) {
+        self.gpu.close();
+    }
+
     /// Whether the GPU is a program on the CPU.
     pub fn is_software(&self) -> bool {
         self.gpu.software

@@ -11,6 +11,7 @@ pub(crate) fn start() -> Tree<Pane> {
     let viewport = tiles.insert_pane(Pane::Viewport);
     let inspector = tiles.insert_pane(Pane::Inspector);
     let code = tiles.insert_pane(Pane::Code);
+    let functions = tiles.insert_pane(Pane::Functions);
     let problems = tiles.insert_pane(Pane::Problems);
     let cost = tiles.insert_pane(Pane::Cost);
     let library = tiles.insert_pane(Pane::Library);
@@ -18,7 +19,7 @@ pub(crate) fn start() -> Tree<Pane> {
     let canvas = tiles.insert_tab_tile(vec![canvas]);
     let viewport = tiles.insert_tab_tile(vec![viewport]);
     let inspector = tiles.insert_tab_tile(vec![inspector]);
-    let below = tiles.insert_tab_tile(vec![code, problems, library, cost, accuracy]);
+    let below = tiles.insert_tab_tile(vec![code, functions, problems, library, cost, accuracy]);
     let left = split(&mut tiles, LinearDir::Vertical, [canvas, below], 0.66);
     let right = split(&mut tiles, LinearDir::Vertical, [viewport, inspector], 0.5);
     let root = split(&mut tiles, LinearDir::Horizontal, [left, right], 0.64);

@@ -8,6 +8,7 @@ use crate::action::{Action, Choose};
 use crate::app::keys::{self, Command};
 use crate::app::questions::Question;
 use crate::app::{Editor, Pane, layout};
+use crate::panes::functions;
 
 /// Sizes of everything that the menu offers.
 const SCALES: [f32; 7] = [0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 2.0];
@@ -88,6 +89,10 @@ impl Editor {
         if ui.add_enabled(!self.session.selection().is_empty(), egui::Button::new("Select nothing")).clicked() {
             actions.push(Action::Select(Vec::new()));
         }
+        ui.separator();
+        if ui.button("New function").on_hover_text("A node of your own, in WGSL").clicked() {
+            actions.extend(functions::added(&self.session));
+        }
     }
 
     fn view_menu(&mut self, ui: &mut egui::Ui) {
@@ -102,6 +107,11 @@ impl Editor {
             self.tree = layout::start();
         }
         ui.separator();
+        let mut on_cpu = self.panes.viewport.draws_on_cpu();
+        let help = "Gives the graphics card back to other programs; slower, the same pictures";
+        if ui.checkbox(&mut on_cpu, "Draw on the CPU").on_hover_text(help).changed() {
+            self.panes.viewport.draw_on_cpu(on_cpu);
+        }
         ui.menu_button("Theme", |ui| {
             let themes = [
                 ("As the system", egui::ThemePreference::System),

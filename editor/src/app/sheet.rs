@@ -5,7 +5,7 @@ use eframe::egui;
 use crate::app::keys::{EVERYWHERE, Hint, SHORTCUTS};
 
 /// Groups of keys that panes take themselves.
-const PANES: &[(&str, &[Hint])] = &[("Graph", GRAPH), ("Viewport", VIEWPORT)];
+const PANES: &[(&str, &[Hint])] = &[("Graph", GRAPH), ("Viewport", VIEWPORT), ("Functions", FUNCTIONS)];
 
 const GRAPH: &[Hint] = &[
     Hint { keys: "Space, Tab", what: "Add a node" },
@@ -31,29 +31,58 @@ const VIEWPORT: &[Hint] = &[
     Hint { keys: "Double click", what: "As at first" },
 ];
 
+const FUNCTIONS: &[Hint] = &[
+    Hint { keys: "Double click on its node", what: "Write the function" },
+    Hint { keys: "Tab", what: "Set in; Esc, then Tab goes on to the next control" },
+];
+
 /// Draws the sheet; whether it is to be closed.
 pub(crate) fn keys(ui: &mut egui::Ui) -> bool {
     ui.heading("Keys");
-    egui::ScrollArea::vertical().max_height(ui.ctx().content_rect().height() * 0.7).show(ui, |ui| {
+    let screen = ui.ctx().content_rect();
+    let is_wide = screen.width() > 980.0;
+    if is_wide {
+        ui.set_width(900.0);
+    }
+    let height = screen.height() * 0.74;
+    egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
         ui.add_space(4.0);
-        ui.strong("Window");
-        egui::Grid::new("keys of the window").num_columns(2).striped(true).min_col_width(180.0).show(ui, |ui| {
-            for shortcut in SHORTCUTS {
-                let text = |keys| ui.ctx().format_shortcut(keys).replace("Questionmark", "?");
-                let keys: Vec<String> = shortcut.keys.iter().map(text).collect();
-                row(ui, &keys.join(" or "), shortcut.what);
-            }
-        });
-        for (title, hints) in PANES.iter().chain(&[("Everywhere", EVERYWHERE)]) {
-            ui.add_space(8.0);
-            ui.strong(*title);
-            egui::Grid::new(*title).num_columns(2).striped(true).min_col_width(180.0).show(ui, |ui| {
-                hints.iter().for_each(|hint| row(ui, hint.keys, hint.what));
+        if is_wide {
+            ui.columns(2, |columns| {
+                window(&mut columns[0]);
+                list(&mut columns[0], "Everywhere", EVERYWHERE);
+                PANES.iter().for_each(|(title, hints)| list(&mut columns[1], title, hints));
             });
+        } else {
+            window(ui);
+            PANES.iter().for_each(|(title, hints)| list(ui, title, hints));
+            list(ui, "Everywhere", EVERYWHERE);
         }
     });
     ui.add_space(8.0);
     ui.button("Close").clicked()
+}
+
+fn window(ui: &mut egui::Ui) {
+    ui.strong("Window");
+    grid("keys of the window").show(ui, |ui| {
+        for shortcut in SHORTCUTS {
+            let text = |keys| ui.ctx().format_shortcut(keys).replace("Questionmark", "?");
+            let keys: Vec<String> = shortcut.keys.iter().map(text).collect();
+            row(ui, &keys.join(" or "), shortcut.what);
+        }
+    });
+    ui.add_space(8.0);
+}
+
+fn list(ui: &mut egui::Ui, title: &str, hints: &[Hint]) {
+    ui.strong(title);
+    grid(title).show(ui, |ui| hints.iter().for_each(|hint| row(ui, hint.keys, hint.what)));
+    ui.add_space(8.0);
+}
+
+fn grid(id: &str) -> egui::Grid {
+    egui::Grid::new(id).num_columns(2).striped(true).min_col_width(180.0)
 }
 
 fn row(ui: &mut egui::Ui, keys: &str, what: &str) {

@@ -13,9 +13,9 @@ use std::time::{Duration, SystemTime};
 use eframe::egui;
 use halfvector_graph::document::Document;
 
-use crate::files::Folders;
 use crate::files::record::{Desk, Lost, Record};
 use crate::files::settings::Settings;
+use crate::files::{Folders, leftovers};
 
 /// How often the open file is looked at.
 const POLL: Duration = Duration::from_secs(1);
@@ -284,6 +284,7 @@ impl Room {
         halfvector_graph::file::save(path, document).map_err(|error| SaveFault::Failed(error.to_string()))?;
         let text = halfvector_graph::file::to_json(document);
         self.watched = Some(Watched::new(path.to_owned(), text.as_bytes()));
+        leftovers::clear(path);
         Ok(())
     }
 

@@ -21,6 +21,7 @@ pub(crate) fn differences(ours: &Document, theirs: &Document) -> Vec<String> {
     if ours.groups != theirs.groups {
         lines.push("groups changed inside".to_owned());
     }
+    functions(ours, theirs, &mut lines);
     if ours.surface != theirs.surface {
         lines.push("alpha mode, cutoff or double sided changed".to_owned());
     }
@@ -36,13 +37,12 @@ pub(crate) fn differences(ours: &Document, theirs: &Document) -> Vec<String> {
 }
 
 fn nodes(ours: &Document, theirs: &Document, lines: &mut Vec<String>) {
-    let library = Library::standard();
-    let label = |document: &Document, id: &str| node_label(&document.graph, library, id);
+    let [of_ours, of_theirs] = [ours, theirs].map(|document| Library::standard().of(document));
     let ids: BTreeSet<&String> = ours.graph.nodes.keys().chain(theirs.graph.nodes.keys()).collect();
     for id in ids {
         match (ours.graph.nodes.get(id), theirs.graph.nodes.get(id)) {
-            (Some(_), None) => lines.push(format!("removed: {}", label(ours, id))),
-            (None, Some(_)) => lines.push(format!("added: {}", label(theirs, id))),
+            (Some(_), None) => lines.push(format!("removed: {}", node_label(&ours.graph, &of_ours, id))),
+            (None, Some(_)) => lines.push(format!("added: {}", node_label(&theirs.graph, &of_theirs, id))),
             (Some(a), Some(b)) if a != b => {
                 let sockets: BTreeSet<&String> = a.values.keys().chain(b.values.keys()).collect();
                 let changed: Vec<&str> = sockets
@@ -51,7 +51,7 @@ fn nodes(ours: &Document, theirs: &Document, lines: &mut Vec<String>) {
                     .map(String::as_str)
                     .collect();
                 let what = if changed.is_empty() { "label or kind".to_owned() } else { changed.join(", ") };
-                lines.push(format!("{}: {what} changed", label(theirs, id)));
+                lines.push(format!("{}: {what} changed", node_label(&theirs.graph, &of_theirs, id)));
             }
             _ => {}
         }
@@ -63,6 +63,18 @@ fn links(ours: &Document, theirs: &Document, lines: &mut Vec<String>) {
     let (ours, theirs) = (set(ours), set(theirs));
     lines.extend(ours.difference(&theirs).map(|link| format!("unlinked: {} from {}", link.to, link.from)));
     lines.extend(theirs.difference(&ours).map(|link| format!("linked: {} to {}", link.from, link.to)));
+}
+
+fn functions(ours: &Document, theirs: &Document, lines: &mut Vec<String>) {
+    let ids: BTreeSet<&String> = ours.functions.keys().chain(theirs.functions.keys()).collect();
+    for id in ids {
+        match (ours.functions.get(id), theirs.functions.get(id)) {
+            (Some(_), None) => lines.push(format!("function {id} removed")),
+            (None, Some(_)) => lines.push(format!("function {id} added")),
+            (a, b) if a != b => lines.push(format!("function {id} rewritten")),
+            _ => {}
+        }
+    }
 }
 
 fn parameters(ours: &Document, theirs: &Document, lines: &mut Vec<String>) {

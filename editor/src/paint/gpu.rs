@@ -39,9 +39,25 @@ impl Gpu {
         }
     }
 
-    /// The device gave up: from now on nobody gets it.
+    /// The device gave up: from now on nobody gets it. What was known of it before stays.
     pub(crate) fn lose(&self, why: String) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = State::Gone(why);
+        let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if !matches!(*state, State::Gone(_)) {
+            *state = State::Gone(why);
+        }
+    }
+
+    /// Gives the device back because a person wants so. What is being drawn on it is drawn by the CPU. Never waits: while the
+    /// device is being opened nothing happens.
+    pub(crate) fn leave(&self, why: String) {
+        let mut state = match self.0.try_lock() {
+            Ok(state) => state,
+            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+            Err(TryLockError::WouldBlock) => return,
+        };
+        if let State::Open(renderer) = std::mem::replace(&mut *state, State::Gone(why)) {
+            renderer.close();
+        }
     }
 
     /// Lets the next one who asks open it anew.

@@ -43,18 +43,23 @@ enum Place {
 
 impl Entry {
     pub(crate) fn new(def: &NodeDef) -> Entry {
+        Entry::of(&def.id, &def.label, def.synonyms.clone(), &def.help)
+    }
+
+    /// What is called so, in the category that its id begins with.
+    pub(crate) fn of(id: &str, label: &str, synonyms: Vec<String>, help: &str) -> Entry {
         let lower = Words {
-            label: def.label.to_lowercase(),
-            id: def.id.to_lowercase(),
-            synonyms: def.synonyms.iter().map(|word| word.to_lowercase()).collect(),
-            help: def.help.to_lowercase(),
+            label: label.to_lowercase(),
+            id: id.to_lowercase(),
+            synonyms: synonyms.iter().map(|word| word.to_lowercase()).collect(),
+            help: help.to_lowercase(),
         };
         Entry {
-            id: def.id.clone(),
-            label: def.label.clone(),
-            category: def.id.split_once('/').map_or("", |(category, _)| category).to_owned(),
-            synonyms: def.synonyms.clone(),
-            help: def.help.clone(),
+            id: id.to_owned(),
+            label: label.to_owned(),
+            category: id.split('/').next().unwrap_or_default().to_owned(),
+            synonyms,
+            help: help.to_owned(),
             lower,
         }
     }

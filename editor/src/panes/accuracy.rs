@@ -21,6 +21,8 @@ pub(crate) struct Accuracy {
     rows: Vec<Row>,
     furnace: Option<(Box<Furnace>, egui::TextureHandle)>,
     failed: Option<String>,
+    /// What the reference leaves out.
+    notes: Vec<String>,
     /// Of the document that was measured.
     revision: u64,
 }
@@ -39,6 +41,7 @@ impl Accuracy {
             rows: Vec::new(),
             furnace: None,
             failed: None,
+            notes: Vec::new(),
             revision: 0,
         }
     }
@@ -83,6 +86,9 @@ impl Accuracy {
             if let Some(why) = &self.failed {
                 ui.colored_label(theme::ERROR, why);
             }
+            for note in &self.notes {
+                ui.colored_label(theme::WARNING, sentence(note));
+            }
             egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
                 ui.horizontal_top(|ui| {
                     ui.vertical(|ui| self.table(ui));
@@ -98,7 +104,7 @@ impl Accuracy {
         self.failed = None;
         self.revision = session.revision();
         match what {
-            What::Errors => (self.rows, self.truth) = (Vec::new(), None),
+            What::Errors => (self.rows, self.truth, self.notes) = (Vec::new(), None, Vec::new()),
             What::Furnace => self.furnace = None,
         }
         self.doing = Some(("Starting".to_owned(), 0.0));
@@ -116,6 +122,7 @@ impl Accuracy {
             match told {
                 Told::Progress(doing, done) => self.doing = Some((doing, done)),
                 Told::Truth(noise, samples) => self.truth = Some((noise, samples)),
+                Told::Notes(notes) => self.notes = notes,
                 Told::Row(row) => self.rows.push(row),
                 Told::Furnace(furnace) => {
                     let options = egui::TextureOptions::LINEAR;
@@ -165,12 +172,12 @@ impl Accuracy {
                     change if change > 0.0005 => theme::WARNING,
                     _ => ui.visuals().text_color(),
                 };
-                for text in
-                    [format!("{:.4}", row.flip), format!("{:.4}", row.rmse), format!("{:+.2} %", 100.0 * row.brighter)]
-                {
-                    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                        ui.label(egui::RichText::new(text).monospace().color(color));
-                    });
+                for text in [
+                    format!("{:.4}", row.flip),
+                    format!("{:.4}", row.rmse),
+                    format!("{:>+8.2} %", 100.0 * row.brighter),
+                ] {
+                    ui.label(egui::RichText::new(text).monospace().color(color));
                 }
                 ui.end_row();
             }
@@ -196,6 +203,12 @@ impl Accuracy {
             plot(ui, &furnace.by_roughness);
         }
     }
+}
+
+/// A note as a sentence of its own.
+pub(crate) fn sentence(note: &str) -> String {
+    let mut letters = note.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 /// A line through points in 0..1, with 1 marked.

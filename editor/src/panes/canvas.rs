@@ -31,7 +31,8 @@ use halfvector_graph::library::Library;
 use halfvector_graph::node_def::NodeDef;
 
 use crate::action::Action;
-use crate::palette::{Outcome, Palette};
+use crate::functions;
+use crate::palette::{self, Outcome, Palette};
 use crate::session::Session;
 use crate::theme;
 use crate::thumbnails::Thumbnails;
@@ -402,6 +403,11 @@ impl Canvas {
     }
 
     fn add(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, definition: &str) {
+        if definition == palette::NEW_FUNCTION {
+            let at = std::mem::take(&mut self.purpose).at;
+            self.add_function(desk, sheet, at);
+            return;
+        }
         let Some(def) = desk.library.get(definition) else { return };
         let purpose = std::mem::take(&mut self.purpose);
         let at = if self.keeps_off_grid { purpose.at } else { view::to_grid(purpose.at) };
@@ -416,6 +422,16 @@ impl Canvas {
             edits::put_into(desk.session, &mut arrival, link);
         }
         desk.arrive(sheet, format!("Add {}", def.label), arrival);
+    }
+
+    /// Adds a function of the document with a node of it, and brings its text to the front.
+    fn add_function(&self, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
+        let at = if self.keeps_off_grid { at } else { view::to_grid(at) };
+        let (id, function) = functions::new(desk.session.document());
+        let mut arrival = edits::add(desk.session, &format!("custom/{id}"), at.into());
+        arrival.edits.insert(0, function);
+        desk.arrive(sheet, "New function", arrival);
+        desk.actions.push(Action::EditFunction(id));
     }
 
     /// Says at a point of the screen why something was not done.
@@ -490,7 +506,7 @@ impl Canvas {
 
 /// Shows what nodes give, on the cards that are unfolded for it.
 fn pictures(ui: &mut egui::Ui, brush: &Brush<'_>, desk: &Desk<'_>, sheet: &Sheet, thumbnails: &mut Thumbnails) {
-    if brush.detail == Detail::Blocks || desk.session.group().is_some() {
+    if brush.detail == Detail::Blocks {
         return;
     }
     let seen = desk.lens.seen();

@@ -1,7 +1,7 @@
 //! The exported shader of the material: its text, which lines are which node's, what was left out and why. It is made on a
 //! thread of its own; the old text stays until the new one is there.
 
-mod highlight;
+pub(in crate::panes) mod highlight;
 mod lines;
 mod made;
 mod text;
@@ -10,6 +10,8 @@ use eframe::egui::{self, Button, ComboBox};
 use halfvector_codegen::target::TARGETS;
 use halfvector_graph::check::node_label;
 use halfvector_graph::document::NodeId;
+use halfvector_graph::flatten::find;
+use halfvector_graph::library::Library;
 use halfvector_graph::needs::Needs;
 
 use crate::action::{Action, Choose};
@@ -17,6 +19,7 @@ pub(crate) use crate::panes::code::made::needs_of;
 use crate::panes::code::made::{Job, Made, make, plain_needs};
 use crate::session::Session;
 use crate::stage::Stage;
+use crate::theme;
 use crate::work::Worker;
 
 /// What the scene is taken to need of the shader.
@@ -37,6 +40,10 @@ pub(crate) struct Code {
     /// Revision, target and needs of the job that was given last.
     asked: Option<(u64, &'static str, Needs)>,
     made: Option<Made>,
+    /// Why the newest shader could not be made: the last good one stays.
+    failed: Option<String>,
+    /// The session that they are of.
+    session: u64,
     shows_dropped: bool,
     /// The selected node when its lines were brought into view last.
     shown: Option<NodeId>,
@@ -52,6 +59,8 @@ impl Code {
             serves: For::Plain,
             asked: None,
             made: None,
+            failed: None,
+            session: 0,
             shows_dropped: false,
             shown: None,
         }
@@ -64,6 +73,9 @@ impl Code {
 
     /// The files of the target that is shown, with the names that they have when the material is called `name`.
     pub(crate) fn files(&self, name: &str) -> Result<Vec<(String, Vec<u8>)>, String> {
+        if let Some(why) = &self.failed {
+            return Err(why.clone());
+        }
         match &self.made {
             _ if !self.is_idle() => Err("The shader is still being made; try again".to_owned()),
             None => Err("Open the code pane first: it makes the shader".to_owned()),
@@ -79,6 +91,15 @@ impl Code {
             self.bar(ui, actions);
         });
         let selected = self.newly_selected(session);
+        if let Some(why) = &self.failed {
+            let frame =
+                egui::Frame::new().fill(theme::ERROR.gamma_multiply(0.16)).inner_margin(egui::Margin::symmetric(8, 3));
+            frame.show(ui, |ui| {
+                ui.set_min_width(ui.available_width());
+                let text = format!("As it was before: {}", why.lines().next().unwrap_or_default());
+                ui.add(egui::Label::new(text).truncate()).on_hover_text(why);
+            });
+        }
         match &self.made {
             Some(Made { result: Ok(code), .. }) => {
                 if self.shows_dropped {
@@ -96,6 +117,9 @@ impl Code {
     }
 
     fn ask(&mut self, session: &Session, stage: &Stage) {
+        if self.session != session.number() {
+            (self.session, self.made, self.failed) = (session.number(), None, None);
+        }
         let Some(worker) = &self.worker else { return };
         let needs = match self.serves {
             For::Plain => plain_needs(),
@@ -108,7 +132,11 @@ impl Code {
             self.asked = Some(wanted);
         }
         while let Some(made) = worker.poll() {
-            self.made = Some(made);
+            let is_kept = self.made.as_ref().is_some_and(|old| old.target == made.target && old.result.is_ok());
+            match &made.result {
+                Err(why) if is_kept => self.failed = Some(why.clone()),
+                _ => (self.failed, self.made) = (None, Some(made)),
+            }
         }
     }
 
@@ -171,7 +199,8 @@ impl Code {
                 let count = code.shader.dropped.len();
                 ui.toggle_value(&mut self.shows_dropped, format!("Left out ({count})"))
                     .on_hover_text("What this shader does without, and why");
-                ui.weak(format!("{} lines · {:.1} kB", code.lines.len(), code.bytes as f64 / 1e3));
+                let size = format!("{} lines · {:.1} kB", code.lines.len(), code.bytes as f64 / 1e3);
+                ui.add(egui::Label::new(egui::RichText::new(size).weak()).truncate());
             }
         });
     }
@@ -194,11 +223,27 @@ fn dropped(ui: &mut egui::Ui, code: &made::Ready) {
     });
 }
 
+/// A node that a shader calls by a path through groups, for people.
+pub(crate) fn path_label(session: &Session, path: &str) -> String {
+    let document = session.document();
+    let library = Library::standard().of(document);
+    let mut label = String::new();
+    for (end, _) in path.match_indices('/').chain([(path.len(), "")]) {
+        if let Some((group, node, _)) = find(document, &path[..end])
+            && let Some(graph) = document.graph_of(group)
+        {
+            let between = if label.is_empty() { "" } else { " / " };
+            label = format!("{label}{between}{}", node_label(graph, &library, node));
+        }
+    }
+    if label.is_empty() { path.to_owned() } else { label }
+}
+
 /// Where a line comes from, for people.
 fn origin_text(session: &Session, origin: Option<&halfvector_codegen::Origin>) -> String {
     match origin {
         Some(halfvector_codegen::Origin::Node(id)) => {
-            format!("{}: click to show the node", node_label(session.graph(), session.library(), id))
+            format!("{}: click to show the node", path_label(session, id))
         }
         Some(halfvector_codegen::Origin::Library(file)) => format!("shaders/{file}"),
         Some(halfvector_codegen::Origin::Frame) => "Interface, transforms and lighting".to_owned(),

@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use eframe::egui::{self, Align, Layout, Sense};
 use halfvector_codegen::{Cost as Counted, Fold, Instructions, cost, shader};
-use halfvector_graph::check::node_label;
 use halfvector_graph::document::{Document, NodeId};
+use halfvector_graph::flatten::find;
 use halfvector_graph::library::Library;
 use halfvector_graph::needs::Needs;
 
-use crate::action::Action;
-use crate::panes::code::needs_of;
+use crate::action::{Action, found};
+use crate::panes::code::{needs_of, path_label};
 use crate::session::Session;
 use crate::stage::Stage;
 use crate::theme;
@@ -32,6 +32,8 @@ pub(crate) struct Cost {
     /// Revision and needs of the job that was given last.
     asked: Option<(u64, Needs)>,
     counted: Option<Result<Counted, String>>,
+    /// What the counted nodes are called, in the order of the count.
+    labels: Vec<String>,
     colors_graph: bool,
     /// Whether the pane was drawn since the last frame: nothing is counted for nobody.
     is_seen: bool,
@@ -45,7 +47,14 @@ impl Cost {
             let made = made.map_err(|error| error.to_string());
             Some(made.and_then(|shader| cost(&shader).map_err(|error| error.to_string())))
         });
-        Cost { worker: worker.ok(), asked: None, counted: None, colors_graph: false, is_seen: false }
+        Cost {
+            worker: worker.ok(),
+            asked: None,
+            counted: None,
+            labels: Vec::new(),
+            colors_graph: false,
+            is_seen: false,
+        }
     }
 
     /// Whether nothing is being counted.
@@ -57,6 +66,8 @@ impl Cost {
     /// costliest: 0 to 1. Empty while the graph is not to be coloured.
     pub(crate) fn hear(&mut self, session: &Session, stage: &Stage) -> BTreeMap<NodeId, f32> {
         while let Some(counted) = self.worker.as_ref().and_then(Worker::poll) {
+            let nodes = counted.as_ref().map(|counted| counted.nodes.as_slice()).unwrap_or_default();
+            self.labels = nodes.iter().map(|part| path_label(session, &part.node)).collect();
             self.counted = Some(counted);
         }
         let wanted = (session.revision(), needs_of(stage));
@@ -67,8 +78,9 @@ impl Cost {
             self.asked = Some(wanted);
         }
         let Some(Ok(counted)) = self.counted.as_ref().filter(|_| self.colors_graph) else { return BTreeMap::new() };
-        let most = counted.nodes.iter().map(|part| weight(part.instructions)).max().unwrap_or(0).max(1);
-        counted.nodes.iter().map(|part| (part.node.clone(), weight(part.instructions) as f32 / most as f32)).collect()
+        let costs = on_level(session, counted);
+        let most = costs.values().copied().max().unwrap_or(0).max(1);
+        costs.into_iter().map(|(node, cost)| (node, cost as f32 / most as f32)).collect()
     }
 
     /// Draws the bars.
@@ -94,7 +106,7 @@ impl Cost {
                 Some(Err(why)) => {
                     ui.label(why);
                 }
-                Some(Ok(counted)) => bars(ui, session, counted, actions),
+                Some(Ok(counted)) => bars(ui, session, counted, &self.labels, actions),
             }
         });
     }
@@ -105,6 +117,21 @@ impl Cost {
 fn weight(part: Instructions) -> u32 {
     let plain = part.arithmetic.saturating_add(part.choices);
     plain.saturating_add(part.transcendental.saturating_mul(4)).saturating_add(part.samples.saturating_mul(16))
+}
+
+/// What the nodes of the level that is worked on cost: a group all that is in it, a node of a group all uses of it.
+fn on_level(session: &Session, counted: &Counted) -> BTreeMap<NodeId, u32> {
+    let document = session.document();
+    let mut costs: BTreeMap<NodeId, u32> = BTreeMap::new();
+    for part in &counted.nodes {
+        let ends = part.node.match_indices('/').map(|(end, _)| end).chain([part.node.len()]);
+        let places = ends.filter_map(|end| find(document, &part.node[..end]));
+        for (_, node, _) in places.filter(|(group, ..)| *group == session.group()) {
+            let cost = costs.entry(node.to_owned()).or_default();
+            *cost = cost.saturating_add(weight(part.instructions));
+        }
+    }
+    costs
 }
 
 fn total(counted: &Counted) -> String {
@@ -124,7 +151,7 @@ struct Bar<'a> {
     instructions: Instructions,
 }
 
-fn bars(ui: &mut egui::Ui, session: &Session, counted: &Counted, actions: &mut Vec<Action>) {
+fn bars(ui: &mut egui::Ui, session: &Session, counted: &Counted, labels: &[String], actions: &mut Vec<Action>) {
     let left = |class: fn(&Instructions) -> u32| {
         let of_nodes = counted.nodes.iter().map(|part| class(&part.instructions)).fold(0, u32::saturating_add);
         class(&counted.fragment).saturating_add(class(&counted.vertex)).saturating_sub(of_nodes)
@@ -138,23 +165,20 @@ fn bars(ui: &mut egui::Ui, session: &Session, counted: &Counted, actions: &mut V
     let mut bars: Vec<Bar> = counted
         .nodes
         .iter()
-        .map(|part| Bar {
-            node: Some(&part.node),
-            label: node_label(session.graph(), session.library(), &part.node),
-            instructions: part.instructions,
-        })
+        .zip(labels)
+        .map(|(part, label)| Bar { node: Some(&part.node), label: label.clone(), instructions: part.instructions })
         .collect();
     bars.push(Bar { node: None, label: "Light and transforms".to_owned(), instructions: rest });
     bars.sort_by_key(|bar| std::cmp::Reverse(weight(bar.instructions)));
     let most = bars.first().map_or(1, |bar| weight(bar.instructions)).max(1);
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for bar in &bars {
-            ui.horizontal(|ui| row(ui, bar, weight(bar.instructions) as f32 / most as f32, actions));
+            ui.horizontal(|ui| row(ui, session, bar, weight(bar.instructions) as f32 / most as f32, actions));
         }
     });
 }
 
-fn row(ui: &mut egui::Ui, bar: &Bar<'_>, share: f32, actions: &mut Vec<Action>) {
+fn row(ui: &mut egui::Ui, session: &Session, bar: &Bar<'_>, share: f32, actions: &mut Vec<Action>) {
     let height = ui.spacing().interact_size.y;
     let name = egui::vec2((ui.available_width() * 0.34).min(220.0), height);
     ui.allocate_ui_with_layout(name, Layout::left_to_right(Align::Center), |ui| {
@@ -163,7 +187,7 @@ fn row(ui: &mut egui::Ui, bar: &Bar<'_>, share: f32, actions: &mut Vec<Action>) 
             Some(node) => {
                 let link = ui.add(egui::Link::new(&bar.label));
                 if link.on_hover_text("Show the node").clicked() {
-                    actions.push(Action::Show(node.clone()));
+                    actions.extend(found(session.document(), node));
                 }
             }
             None => {

@@ -2,9 +2,11 @@
 
 mod color;
 mod curve;
+mod group;
 mod help;
 mod image;
 mod input;
+mod kind;
 mod material;
 mod metal;
 mod node;
@@ -56,7 +58,10 @@ impl Inspector {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
                 let mut selected = session.selection().iter();
                 match (selected.next(), selected.next()) {
-                    (None, _) => material::show(ui, session, actions),
+                    (None, _) => match session.group().and_then(|id| Some((id, session.document().groups.get(id)?))) {
+                        Some((id, group)) => group::show(ui, session, id, group, actions),
+                        None => material::show(ui, session, actions),
+                    },
                     (Some(id), None) => {
                         let before = actions.len();
                         node::show(ui, session, id, notices, &mut self.thumbnails, actions);

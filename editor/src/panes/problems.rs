@@ -10,7 +10,8 @@ use halfvector_graph::document::Document;
 use halfvector_reference::{Finding, Stability, stability};
 use halfvector_scene::{ImageStore, Scene, SceneMaterial, normal_map_problems};
 
-use crate::action::Action;
+use crate::action::{Action, found};
+use crate::functions;
 use crate::panes::inspector::named_text;
 use crate::session::Session;
 use crate::theme;
@@ -117,7 +118,7 @@ impl Problems {
                     ui.weak(format!("None of {} problems passes the filter", all.len()));
                 }
                 for problem in shown {
-                    row(ui, problem, actions);
+                    row(ui, session, problem, actions);
                 }
                 self.precision(ui, session, actions);
             });
@@ -174,8 +175,11 @@ impl Problems {
                 if found.unstable.is_empty() {
                     ui.colored_label(theme::GOOD, "f32 computes what exact arithmetic does, everywhere that was tried");
                 }
-                found.unstable.iter().for_each(|finding| unstable(ui, finding, "f32 is wrong", actions));
-                found.edges.iter().for_each(|finding| unstable(ui, finding, "a jump that f32 may miss", actions));
+                found.unstable.iter().for_each(|finding| unstable(ui, session, finding, "f32 is wrong", actions));
+                found
+                    .edges
+                    .iter()
+                    .for_each(|finding| unstable(ui, session, finding, "a jump that f32 may miss", actions));
             }
         }
     }
@@ -195,7 +199,7 @@ fn look(job: &Job) -> Found {
     Found { revision: job.revision, problems, stability: found }
 }
 
-fn row(ui: &mut egui::Ui, problem: &Problem, actions: &mut Vec<Action>) {
+fn row(ui: &mut egui::Ui, session: &Session, problem: &Problem, actions: &mut Vec<Action>) {
     let (mark, color) = match problem.severity {
         Severity::Error => ("•", theme::ERROR),
         Severity::Warning => ("⚠", theme::WARNING),
@@ -205,8 +209,13 @@ fn row(ui: &mut egui::Ui, problem: &Problem, actions: &mut Vec<Action>) {
         if let Some(node) = &problem.node {
             let label = problem.node_label.as_deref().unwrap_or(node);
             if ui.link(label).on_hover_text("Show the node").clicked() {
-                actions.push(Action::Show(node.clone()));
+                actions.push(Action::Find { group: problem.group.clone(), node: node.clone() });
             }
+        }
+        if let Some(function) = functions::of_problem(session.document(), problem)
+            && ui.link(function).on_hover_text("Show its code").clicked()
+        {
+            actions.push(Action::EditFunction(function.to_owned()));
         }
         if let Some(socket) = &problem.socket {
             ui.weak(socket);
@@ -215,11 +224,11 @@ fn row(ui: &mut egui::Ui, problem: &Problem, actions: &mut Vec<Action>) {
     });
 }
 
-fn unstable(ui: &mut egui::Ui, finding: &Finding, what: &str, actions: &mut Vec<Action>) {
+fn unstable(ui: &mut egui::Ui, session: &Session, finding: &Finding, what: &str, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
         ui.colored_label(theme::WARNING, "⚠");
         if ui.link(&finding.label).on_hover_text("Show the node").clicked() {
-            actions.push(Action::Show(finding.node.clone()));
+            actions.extend(found(session.document(), &finding.node));
         }
         ui.weak(&finding.output);
         let place: Vec<String> = finding.input.iter().map(|(name, x)| format!("{name} = {x:.6}")).collect();

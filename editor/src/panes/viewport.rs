@@ -11,7 +11,6 @@ use std::sync::Arc;
 
 use eframe::egui::{self, Color32, PointerButton, Sense};
 use halfvector_graph::document::Document;
-use halfvector_graph::library::Library;
 use halfvector_graph::value::SocketType;
 use halfvector_scene::mesh::Bounds;
 use halfvector_scene::{EnvironmentSource, MeshSource, Picture};
@@ -21,6 +20,7 @@ use crate::action::Action;
 use crate::environments::{Environments, Light};
 use crate::library::LibraryMaterial;
 use crate::paint::{Drawn, Engine, Fault, Gpu, Noise, Painter, Request, Shot, start};
+use crate::panes::accuracy::sentence;
 use crate::session::Session;
 use crate::stage::{Orbit, Stage};
 use crate::theme;
@@ -140,6 +140,26 @@ impl Viewport {
     /// The light that the stage's environment gives, when it is baked.
     pub(crate) fn light(&mut self) -> Option<Arc<Light>> {
         self.environments.get(&self.stage.environment, &self.stage.methods).ok().flatten()
+    }
+
+    /// Who drew the picture that is shown, for people.
+    pub(crate) fn drawn_by(&self) -> Option<&str> {
+        self.sides[0].shown.as_ref().map(|shown| shown.by.as_str())
+    }
+
+    /// Whether the CPU draws, chosen or for want of a GPU.
+    pub(crate) fn draws_on_cpu(&self) -> bool {
+        self.gpu.trouble().is_some()
+    }
+
+    /// Lets the CPU draw in place of the GPU, or tries the GPU again.
+    pub(crate) fn draw_on_cpu(&mut self, on_cpu: bool) {
+        if on_cpu {
+            self.gpu.leave("as it was chosen in the menu View".to_owned());
+        } else {
+            self.gpu.retry();
+            self.sides.iter_mut().for_each(|side| side.wish = None);
+        }
     }
 
     /// Draws the picture and takes drags of the pointer.
@@ -392,26 +412,37 @@ impl Viewport {
         let corner = rect.left_bottom() + egui::vec2(8.0, -6.0);
         ui.painter().text(corner, egui::Align2::LEFT_BOTTOM, text, font, ui.visuals().weak_text_color());
         let mut lines: Vec<(String, Color32)> = Vec::new();
-        if let Some(done) = self.environments.progress() {
-            lines.push((format!("Preparing the environment: {:.0} %", done * 100.0), theme::ACCENT));
-        }
         let faults = self.sides.iter().filter_map(|side| side.fault.as_ref());
         lines.extend(faults.map(|fault| (fault.text().to_owned(), theme::ERROR)));
+        let count = if self.compare.is_on() { 2 } else { 1 };
+        let noises = self.sides[..count].iter().filter_map(|side| side.shown.as_ref()?.noise.as_ref());
+        let mut notes: Vec<&String> = noises.flat_map(|noise| noise.notes.iter()).collect();
+        notes.dedup();
+        lines.extend(notes.into_iter().map(|note| (sentence(note), theme::WARNING)));
         let place = rect.left_top() + egui::vec2(8.0, 8.0);
         let builder = egui::UiBuilder::new()
             .max_rect(egui::Rect::from_min_size(place, egui::vec2((rect.width() - 16.0).max(40.0), rect.height())));
         ui.scope_builder(builder, |ui| {
+            if let Some(done) = self.environments.progress() {
+                note(ui, theme::ACCENT, |ui| {
+                    ui.label(format!("Preparing the environment: {:.0} %", done * 100.0));
+                    if ui.button("Cancel").on_hover_text("The picture keeps the environment that it has").clicked() {
+                        self.environments.cancel();
+                        self.stage.environment = self.good.1.clone();
+                    }
+                });
+            }
             for (line, color) in lines {
                 note(ui, color, |ui| {
-                    ui.label(line);
+                    let first = line.lines().next().unwrap_or_default().to_owned();
+                    ui.label(first).on_hover_text(egui::RichText::new(line).monospace());
                 });
             }
             if let Some(why) = self.gpu.trouble() {
                 note(ui, theme::WARNING, |ui| {
                     ui.label(format!("Drawn on the CPU: {why}"));
                     if ui.button("Try the GPU again").on_hover_text("Opens the graphics card anew").clicked() {
-                        self.gpu.retry();
-                        self.sides.iter_mut().for_each(|side| side.wish = None);
+                        self.draw_on_cpu(false);
                     }
                 });
             }
@@ -437,12 +468,9 @@ fn request(side: usize, key: u64, wish: &Wish) -> Request {
 /// What the selected node gives, in the corner of the picture: its outputs one beside the other.
 fn selected(ui: &mut egui::Ui, rect: egui::Rect, session: &Session, thumbnails: &mut Thumbnails) {
     const EDGE: f32 = 72.0;
-    let document = session.document();
     let mut nodes = session.selection().iter();
     let (Some(id), None) = (nodes.next(), nodes.next()) else { return };
-    let Some(definition) = document.graph.nodes.get(id).and_then(|node| Library::standard().get(&node.node)) else {
-        return;
-    };
+    let Some(definition) = session.node(id).and_then(|node| session.library().get(&node.node)) else { return };
     let outputs = definition.outputs.iter().filter(|output| output.ty != SocketType::Surface).take(3);
     let mut right = rect.right() - 8.0;
     for output in outputs {

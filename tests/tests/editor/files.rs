@@ -101,6 +101,29 @@ fn a_saved_material_is_the_one_that_was_worked_on() {
 }
 
 #[test]
+fn what_a_killed_save_left_behind_is_cleared_away_by_a_later_one() {
+    let folder = TempDir::new().expect("a folder");
+    let path = folder.path().join("steel.material.json");
+    let beside = |name: &str, minutes: u64| {
+        let path = folder.path().join(name);
+        let file = std::fs::File::create(&path).expect("a file");
+        file.set_modified(std::time::SystemTime::now() - Duration::from_secs(60 * minutes)).expect("a time");
+        path
+    };
+    let old = beside(".steel.material.json.4711-0.tmp", 30);
+    let others = [
+        beside(".steel.material.json.4711-1.tmp", 1),
+        beside(".brass.material.json.4711-0.tmp", 30),
+        beside("a.tmp", 30),
+    ];
+    let mut harness = open(Options::default());
+    harness.state_mut().act(Action::SaveAs(path.clone()));
+    settle(&mut harness);
+    assert!(path.exists() && !old.exists());
+    assert!(others.iter().all(|other| other.exists()), "{others:?}");
+}
+
+#[test]
 fn unsaved_work_is_asked_about() {
     let place = Place::new();
     let mut harness = place.open();

@@ -13,8 +13,12 @@ use super::settle;
 
 /// A window small enough that its pictures cost little.
 fn open(options: Options) -> Harness<'static, Editor> {
+    open_sized([1000.0, 620.0], options)
+}
+
+fn open_sized(size: [f32; 2], options: Options) -> Harness<'static, Editor> {
     let mut harness =
-        Harness::builder().with_size([1000.0, 620.0]).build_eframe(|context| Editor::new(&context.egui_ctx, options));
+        Harness::builder().with_size(size).build_eframe(|context| Editor::new(&context.egui_ctx, options));
     settle(&mut harness);
     harness
 }
@@ -145,7 +149,7 @@ const TRIANGLE: &str = r#"{
 
 #[test]
 fn two_sides_are_compared_and_their_difference_is_told() {
-    let mut harness = open(Options::default());
+    let mut harness = open_sized([1440.0, 620.0], Options::default());
     click(&mut harness, "Compare");
     click(&mut harness, "Difference");
     settle(&mut harness);

@@ -2,9 +2,9 @@
 
 use halfvector_ibl::environment::{dfg_from_table, environment_sample, environment_sample_hermite, irradiance_sh2};
 use halfvector_ibl::{
-    BakeOptions, BakedEnvironment, Cube, DFG_SIZE, Equirect, LevelMap, Prefilter, Visibility, bake, bake_with_progress,
-    cube_from_equirect, dfg, dfg_table, direction_from_equirect, direction_from_face, face_from_direction, sky, studio,
-    texel_solid_angle, white,
+    BakeOptions, BakedEnvironment, Cube, DFG_SIZE, Equirect, LevelMap, Prefilter, Visibility, bake, bake_while,
+    bake_with_progress, cube_from_equirect, dfg, dfg_table, direction_from_equirect, direction_from_face,
+    face_from_direction, sky, studio, texel_solid_angle, white,
 };
 use std::f64::consts::PI;
 
@@ -327,6 +327,19 @@ fn dfg_table_is_accurate() {
                 .all(|v| (0.0..=1.0).contains(v))
         );
     }
+}
+
+/// A bake that is told to stop at a step stops there; one that is not gives what `bake` gives.
+#[test]
+fn a_bake_stops_when_it_is_told_to() {
+    let mut steps = 0;
+    let stopped = bake_while(&white(), &small(32), &mut |_| {
+        steps += 1;
+        steps < 3
+    });
+    assert!(stopped.is_none() && steps == 3, "{steps}");
+    let whole = bake_while(&white(), &small(32), &mut |_| true).expect("a whole bake");
+    assert_eq!(whole.irradiance_sh, bake(&white(), &small(32)).irradiance_sh);
 }
 
 /// Progress starts at 0, never falls and ends at 1.

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Stroke, StrokeKind, Vec2};
-use halfvector_graph::document::{Link, NodeId, SocketRef, group_of};
+use halfvector_graph::document::{Link, NodeId, SocketRef, function_of, group_of};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::library::Library;
 use halfvector_graph::node_def::REROUTE;
@@ -319,6 +319,8 @@ impl Canvas {
                 let card = &sheet.cards[card];
                 if let Some(group) = group_of(&card.definition) {
                     desk.enter(group);
+                } else if let Some(function) = function_of(&card.definition) {
+                    desk.actions.push(Action::EditFunction(function.to_owned()));
                 } else if desk.lens.to_canvas(at).y < card.rect().top() + super::sheet::HEADER {
                     self.rename(sheet, &card.id);
                 }

@@ -1,7 +1,7 @@
 //! The menus of the right mouse button.
 
 use eframe::egui::{self, PointerButton, Pos2, Response};
-use halfvector_graph::document::{Link, NodeId, group_of};
+use halfvector_graph::document::{Link, NodeId, function_of, group_of};
 use halfvector_graph::edit::Edit;
 
 use super::hit::Hit;
@@ -65,6 +65,9 @@ impl Canvas {
     fn place_menu(&mut self, menu: &mut egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, place: Pos2, at: Pos2) {
         if item(menu, "Add node…", "Space") {
             self.open_palette(desk, at, Purpose { at: place, ..Purpose::default() });
+        }
+        if item(menu, "New function…", "") {
+            self.add_function(desk, sheet, place);
         }
         if item(menu, "Paste", "Ctrl+V") {
             menu.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
@@ -136,6 +139,11 @@ impl Canvas {
             if item(menu, "Ungroup", "Ctrl+Shift+G") {
                 self.ungroup(ui, desk, sheet, at);
             }
+        }
+        if let Some(function) = desk.graph.nodes.get(node).and_then(|node| function_of(&node.node))
+            && item(menu, "Edit the code", "Double-click")
+        {
+            desk.actions.push(Action::EditFunction(function.to_owned()));
         }
         if item(menu, "Put a frame around", "Ctrl+J") {
             self.add_frame(desk, sheet);

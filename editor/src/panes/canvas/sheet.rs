@@ -14,6 +14,7 @@ use halfvector_graph::value::{SocketType, Type, Value};
 use super::Unfolded;
 use super::arrange;
 use super::notes::{self, Note};
+use crate::colors::nodes_of_colors;
 use crate::session::Session;
 
 /// Height of a card's title.
@@ -135,6 +136,7 @@ impl Sheet {
     pub(super) fn new(context: &egui::Context, session: &Session, unfolded: &Unfolded) -> Sheet {
         let (document, graph, library) = (session.document(), session.graph(), session.library());
         let types = resolve_types(graph, library);
+        let colors = nodes_of_colors(graph, &types);
         let wired: HashSet<&SocketRef> = graph.links.iter().flat_map(|link| [&link.from, &link.to]).collect();
         let is_top = session.group().is_none();
         let offered = document.parameters.iter().map(|parameter| &parameter.socket);
@@ -147,7 +149,8 @@ impl Sheet {
                 Some(types) => {
                     let is_used = |name: &str| is_wired(name) || node.values.contains_key(name) || is_offered(name);
                     let values = &node.values;
-                    rows_of(types, values, is_wired, is_used, unfolded.inputs.contains(id))
+                    let has_colors = colors.contains(id.as_str());
+                    rows_of(types, values, has_colors, is_wired, is_used, unfolded.inputs.contains(id))
                 }
                 None => rows_of_unknown(graph, id),
             };
@@ -359,6 +362,7 @@ pub(super) fn number(value: f32) -> String {
 fn rows_of(
     types: &NodeTypes<'_>,
     values: &BTreeMap<String, Value>,
+    has_colors: bool,
     is_wired: impl Fn(&str) -> bool,
     is_used: impl Fn(&str) -> bool,
     is_unfolded: bool,
@@ -404,7 +408,13 @@ fn rows_of(
             y: 0.0,
             is_wired,
             help: input.help.clone(),
-            field: if is_wired { Field::None } else { field(input, ty, values.get(&input.name)) },
+            field: match is_wired {
+                true => Field::None,
+                false => {
+                    let is_color = input.unit == "color" || (has_colors && input.ty == SocketType::Generic);
+                    field(input, ty, is_color, values.get(&input.name))
+                }
+            },
         };
         next(&mut rows, row);
     }
@@ -457,7 +467,7 @@ fn rows_of_unknown(graph: &Graph, id: &str) -> Vec<Row> {
         .collect()
 }
 
-fn field(input: &Input, ty: SocketType, set: Option<&Value>) -> Field {
+fn field(input: &Input, ty: SocketType, is_color: bool, set: Option<&Value>) -> Field {
     let value = match (set, &input.default) {
         (Some(value), _) => value,
         (None, InputDefault::Value(value)) => value,
@@ -478,7 +488,7 @@ fn field(input: &Input, ty: SocketType, set: Option<&Value>) -> Field {
         (_, [x]) => {
             Field::Number { value: *x, range: input.range, is_whole: ty == Type::I32, unit: input.unit.clone() }
         }
-        (Type::Vec3, [r, g, b]) if input.unit == "color" => Field::Color([*r, *g, *b]),
+        (Type::Vec3, [r, g, b]) if is_color => Field::Color([*r, *g, *b]),
         (_, parts) => {
             Field::Vector { text: parts.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", "), count: parts.len() }
         }

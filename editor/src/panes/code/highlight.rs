@@ -7,7 +7,7 @@ use halfvector_shaders::{TokenKind, tokens};
 
 /// How a text is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Language {
+pub(in crate::panes) enum Language {
     /// WGSL.
     Wgsl,
     /// GLSL, HLSL, MSL: near enough to C.
@@ -16,7 +16,7 @@ pub(super) enum Language {
 
 /// What a part of a text is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(in crate::panes) enum Kind {
     Keyword,
     Type,
     Number,
@@ -28,9 +28,9 @@ pub(super) enum Kind {
 
 /// A coloured part.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Span {
-    pub(super) bytes: Range<usize>,
-    pub(super) kind: Kind,
+pub(in crate::panes) struct Span {
+    pub(in crate::panes) bytes: Range<usize>,
+    pub(in crate::panes) kind: Kind,
 }
 
 const KEYWORDS: &[&str] = &[
@@ -89,7 +89,7 @@ const STEMS: &[&str] =
     &["vec", "mat", "float", "int", "uint", "half", "bool", "texture", "sampler", "ivec", "uvec", "bvec"];
 
 /// All coloured parts, in order.
-pub(super) fn highlight(text: &str, language: Language) -> Vec<Span> {
+pub(in crate::panes) fn highlight(text: &str, language: Language) -> Vec<Span> {
     match language {
         Language::Wgsl => of_wgsl(text),
         Language::OfC => of_c(text),

@@ -4,8 +4,9 @@ use eframe::egui::text::LayoutJob;
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Sense, Stroke, TextFormat, TextStyle};
 use halfvector_codegen::Origin;
 use halfvector_graph::document::NodeId;
+use halfvector_graph::flatten::find;
 
-use crate::action::Action;
+use crate::action::{Action, found};
 use crate::panes::code::highlight::Span;
 use crate::panes::code::lines::Line;
 use crate::panes::code::made::Ready;
@@ -34,7 +35,8 @@ pub(super) fn show(
     let width = gutter + glyph * (longest + 2.0);
     ui.spacing_mut().item_spacing.y = 0.0;
     let mut area = egui::ScrollArea::both().auto_shrink(false);
-    let is_wanted = |line: &Line| matches!(&line.origin, Some(Origin::Node(id)) if Some(id) == wanted);
+    let is_wanted =
+        |line: &Line| matches!(&line.origin, Some(Origin::Node(id)) if wanted.is_some() && is_selected(session, id));
     if let Some(first) = wanted.and_then(|_| code.lines.iter().position(is_wanted)) {
         area = area.vertical_scroll_offset((first as f32 - 3.0).max(0.0) * height);
     }
@@ -50,7 +52,7 @@ pub(super) fn show(
                 ui.label(origin_text(session, line.origin.as_ref()));
             });
             if let (true, Some(Origin::Node(id))) = (response.clicked(), &line.origin) {
-                actions.push(Action::Show(id.clone()));
+                actions.extend(found(session.document(), id));
             }
         }
     });
@@ -70,7 +72,7 @@ fn draw(
     let visuals = ui.visuals();
     let painter = ui.painter();
     if let Some(Origin::Node(id)) = &line.origin {
-        if session.selection().contains(id) {
+        if is_selected(session, id) {
             painter.rect_filled(rect, 0.0, theme::ACCENT.gamma_multiply(0.2));
         } else if response.hovered() {
             painter.rect_filled(rect, 0.0, visuals.faint_bg_color);
@@ -83,6 +85,12 @@ fn draw(
     let job = layout(code, line, font, visuals);
     let galley = painter.layout_job(job);
     painter.galley(Pos2::new(rect.left() + gutter + 2.0, rect.top() + 1.0), galley, visuals.text_color());
+}
+
+/// Whether a node that the shader calls by a path is selected on the level that is worked on.
+fn is_selected(session: &Session, path: &str) -> bool {
+    find(session.document(), path)
+        .is_some_and(|(group, node, _)| group == session.group() && session.selection().contains(node))
 }
 
 /// One line with its colours.

@@ -24,6 +24,8 @@ pub(crate) struct Slot<'a> {
     pub(crate) input: &'a Input,
     /// Its type, no longer generic.
     pub(crate) ty: SocketType,
+    /// Whether three or four numbers on it are a colour.
+    pub(crate) is_color: bool,
 }
 
 /// The value that an unconnected input has: the one set, or the definition's. `None` for contexts and empty image slots.
@@ -123,7 +125,7 @@ fn widget(
         ui.colored_label(theme::ERROR, "this value does not fit").on_hover_text("Reset it in the menu at the right");
         return;
     };
-    let is_color = slot.input.unit == "color" && parts.len() >= 3;
+    let is_color = slot.is_color && parts.len() >= 3;
     let response = match (ty, parts.as_mut_slice()) {
         (Type::Bool, [part]) => {
             let mut on = *part != 0.0;
@@ -143,7 +145,7 @@ fn widget(
 }
 
 /// A value from components of a type.
-fn value_from(ty: Type, parts: &[f32]) -> Option<Value> {
+pub(crate) fn value_from(ty: Type, parts: &[f32]) -> Option<Value> {
     Some(match (ty, parts) {
         (Type::Bool, [x]) => Value::Bool(*x != 0.0),
         (Type::I32, [x]) => Value::Number(x.round()),

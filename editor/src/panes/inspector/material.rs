@@ -4,7 +4,6 @@ use eframe::egui::{self, Checkbox, CollapsingHeader, ComboBox, RichText, TextEdi
 use halfvector_graph::check::{Severity, node_label, surface_node};
 use halfvector_graph::document::{AlphaMode, SurfaceSettings};
 use halfvector_graph::edit::Edit;
-use halfvector_graph::library::Library;
 use halfvector_graph::value::Value;
 use halfvector_graph::wiring::Wiring;
 
@@ -111,7 +110,7 @@ fn parameters(ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
                 {
                     moved = Some((place, place + 1));
                 }
-                let of = node_label(&document.graph, Library::standard(), &one.socket.node);
+                let of = node_label(&document.graph, session.library(), &one.socket.node);
                 let text = format!("{of} · {}", super::row::in_words(&one.socket.socket));
                 if ui.link(text).on_hover_text("Show the node").clicked() {
                     actions.push(Action::Show(one.socket.node.clone()));
@@ -137,7 +136,7 @@ fn parameters(ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
 fn statistics(ui: &mut egui::Ui, session: &Session) {
     let document = session.document();
     let wiring = Wiring::new(&document.graph);
-    let live = surface_node(document, Library::standard())
+    let live = surface_node(document, session.library())
         .and_then(|surface| wiring.order(&[surface]).ok())
         .map(|order| order.len());
     let images: std::collections::BTreeSet<&str> = document

@@ -64,7 +64,9 @@ fn name(
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| parameter.name.clone());
     let taken = text != parameter.name && session.document().parameter(&text).is_some();
     let fits = is_name(&text) && !taken;
-    let field = TextEdit::singleline(&mut text).desired_width(110.0).font(egui::TextStyle::Monospace);
+    let field = TextEdit::singleline(&mut text)
+        .desired_width((ui.available_width() * 0.45 - 8.0).max(80.0))
+        .font(egui::TextStyle::Monospace);
     let field = if fits { field } else { field.text_color(theme::ERROR) };
     let response = ui.add(field).on_hover_text(match (fits, taken) {
         (true, _) => "Name in shaders and on the command line",

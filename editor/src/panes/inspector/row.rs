@@ -7,7 +7,7 @@ use crate::action::Action;
 /// Share of the width that names take.
 const NAME_SHARE: f32 = 0.36;
 /// Width of the menu's button.
-const MENU_WIDTH: f32 = 22.0;
+const MENU_WIDTH: f32 = 26.0;
 
 /// Names of sockets as people write them: `base_color` becomes "base color".
 pub(crate) fn in_words(name: &str) -> String {
@@ -45,6 +45,7 @@ pub(crate) fn row<R>(
     let result = add_widget(&mut part(widget_rect), label.id);
     if let Some(add_menu) = add_menu {
         let mut menu = part(menu_rect.with_min_x(menu_rect.left() + gap));
+        menu.spacing_mut().button_padding.x = 6.0;
         menu.menu_button("…", |ui| add_menu(ui)).response.on_hover_text("Reset, expose, disconnect");
     }
     result

@@ -1,6 +1,6 @@
 //! The row above the picture: mesh, environment, display, lights, methods, comparison.
 
-use eframe::egui::containers::menu::{MenuButton, MenuConfig};
+use eframe::egui::containers::menu::{MenuButton, MenuConfig, SubMenuButton, is_in_menu};
 use eframe::egui::{self, PopupCloseBehavior};
 use halfvector_graph::method::{Methods, TERMS};
 use halfvector_graph::needs::ToneMap;
@@ -16,6 +16,47 @@ pub(super) enum Picks {
     Environment,
 }
 
+/// A button or menu of the row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tool {
+    Mesh,
+    Environment,
+    Display,
+    Lights,
+    Methods,
+    Compare,
+    Turntable,
+    Frame,
+}
+
+impl Tool {
+    /// In the order shown.
+    const ALL: [Tool; 8] = [
+        Tool::Mesh,
+        Tool::Environment,
+        Tool::Display,
+        Tool::Lights,
+        Tool::Methods,
+        Tool::Compare,
+        Tool::Turntable,
+        Tool::Frame,
+    ];
+    /// In the order in which they go into the menu at the end.
+    const FIRST_TO_GO: [Tool; 8] = [
+        Tool::Turntable,
+        Tool::Methods,
+        Tool::Display,
+        Tool::Compare,
+        Tool::Lights,
+        Tool::Environment,
+        Tool::Frame,
+        Tool::Mesh,
+    ];
+}
+
+/// The menu at the end of a row that is too short.
+const MORE: &str = "»";
+
 const ENVIRONMENTS: [(&str, EnvironmentSource, &str); 4] = [
     ("Studio", EnvironmentSource::Studio, "Softboxes before a grey surround"),
     ("Sky", EnvironmentSource::Sky, "A clear sky with a sun"),
@@ -24,24 +65,71 @@ const ENVIRONMENTS: [(&str, EnvironmentSource, &str); 4] = [
 ];
 
 impl Viewport {
-    /// Draws the row.
+    /// Draws the row. Tools that have no room in it are in a menu at its end.
     pub(super) fn toolbar(&mut self, ui: &mut egui::Ui, session: &Session) {
-        ui.horizontal_wrapped(|ui| {
-            menu(ui, "Mesh", "What wears the material", |ui| self.mesh_menu(ui));
-            menu(ui, "Environment", "What surrounds it", |ui| self.environment_menu(ui));
-            menu(ui, "Display", "Exposure and tone map", |ui| self.display_menu(ui));
-            let lights = self.stage.lamps.len();
-            let title = if lights == 0 { "Lights".to_owned() } else { format!("Lights ({lights})") };
-            menu(ui, &title, "Punctual lights", |ui| self.lamp_list(ui));
-            menu(ui, "Methods", "How each term of shading is computed", |ui| {
-                methods_menu(ui, &mut self.stage.methods);
-            });
-            menu(ui, "Compare", "Two pictures side by side, and how they differ", |ui| self.compare_menu(ui, session));
-            ui.toggle_value(&mut self.turntable, "Turntable").on_hover_text("Turns the view by itself");
-            if ui.button("Frame").on_hover_text("Brings everything into view (F, double click)").clicked() {
-                self.frame();
+        let font = egui::TextStyle::Button.resolve(ui.style());
+        let gap = ui.spacing().item_spacing.x;
+        let padding = 2.0 * ui.spacing().button_padding.x;
+        let room = ui.available_width() + gap;
+        let width_of = |text: String| {
+            let galley = ui.painter().layout_no_wrap(text, font.clone(), egui::Color32::WHITE);
+            galley.size().x.ceil() + padding + gap
+        };
+        let widths = Tool::ALL.map(|tool| width_of(self.title(tool)));
+        let more = width_of(MORE.to_owned());
+        let mut is_shown = [true; Tool::ALL.len()];
+        for tool in Tool::FIRST_TO_GO {
+            let taken = |is_shown: &[bool]| -> f32 {
+                let shown = widths.iter().zip(is_shown).filter(|(_, is_shown)| **is_shown).map(|(width, _)| width);
+                shown.sum::<f32>() + if is_shown.contains(&false) { more } else { 0.0 }
+            };
+            if taken(&is_shown) <= room {
+                break;
+            }
+            is_shown[tool as usize] = false;
+        }
+        ui.horizontal(|ui| {
+            for tool in Tool::ALL.into_iter().filter(|tool| is_shown[*tool as usize]) {
+                self.tool(ui, session, tool);
+            }
+            if is_shown.contains(&false) {
+                let response = menu(ui, MORE, "Tools that have no room here", |ui| {
+                    ui.set_min_width(130.0);
+                    for tool in Tool::ALL.into_iter().filter(|tool| !is_shown[*tool as usize]) {
+                        self.tool(ui, session, tool);
+                    }
+                });
+                response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, "More tools"));
             }
         });
+    }
+
+    fn title(&self, tool: Tool) -> String {
+        match (tool, self.stage.lamps.len()) {
+            (Tool::Lights, lights) if lights > 0 => format!("Lights ({lights})"),
+            _ => format!("{tool:?}"),
+        }
+    }
+
+    fn tool(&mut self, ui: &mut egui::Ui, session: &Session, tool: Tool) {
+        let title = self.title(tool);
+        let shown = match tool {
+            Tool::Mesh => menu(ui, &title, "What wears the material", |ui| self.mesh_menu(ui)),
+            Tool::Environment => menu(ui, &title, "What surrounds it", |ui| self.environment_menu(ui)),
+            Tool::Display => menu(ui, &title, "Exposure and tone map", |ui| self.display_menu(ui)),
+            Tool::Lights => menu(ui, &title, "Punctual lights", |ui| self.lamp_list(ui)),
+            Tool::Methods => menu(ui, &title, "How each term of shading is computed", |ui| {
+                methods_menu(ui, &mut self.stage.methods);
+            }),
+            Tool::Compare => menu(ui, &title, "Two pictures side by side, and how they differ", |ui| {
+                self.compare_menu(ui, session);
+            }),
+            Tool::Turntable => ui.toggle_value(&mut self.turntable, title).on_hover_text("Turns the view by itself"),
+            Tool::Frame => ui.button(title).on_hover_text("Brings everything into view (F, double click)"),
+        };
+        if tool == Tool::Frame && shown.clicked() {
+            self.frame();
+        }
     }
 
     fn mesh_menu(&mut self, ui: &mut egui::Ui) {
@@ -119,11 +207,15 @@ impl Viewport {
     }
 }
 
-/// A menu that stays open while things in it are set.
-pub(super) fn menu(ui: &mut egui::Ui, title: &str, help: &str, add: impl FnOnce(&mut egui::Ui)) {
+/// A menu that stays open while things in it are set. In a menu it opens at the side.
+pub(super) fn menu(ui: &mut egui::Ui, title: &str, help: &str, add: impl FnOnce(&mut egui::Ui)) -> egui::Response {
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    let (response, _) = MenuButton::new(title).config(config).ui(ui, add);
-    response.on_hover_text(help);
+    let response = if is_in_menu(ui) {
+        SubMenuButton::new(title).config(config).ui(ui, add).0
+    } else {
+        MenuButton::new(title).config(config).ui(ui, add).0
+    };
+    response.on_hover_text(help)
 }
 
 /// The method of each term, with what it is and where it comes from.

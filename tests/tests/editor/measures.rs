@@ -1,0 +1,133 @@
+//! The panes that measure: errors against the reference, the furnace, what nodes cost, what is wrong. And a GPU that goes while it
+//! draws.
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use halfvector_editor::{Action, Editor, Options, egui};
+use halfvector_graph::document::SocketRef;
+use halfvector_graph::edit::Edit;
+use halfvector_graph::value::Value;
+
+use egui::accesskit::Role;
+
+use super::settle;
+
+type Window = Harness<'static, Editor>;
+
+fn open() -> Window {
+    let mut window = Harness::builder()
+        .with_size([1000.0, 620.0])
+        .build_eframe(|context| Editor::new(&context.egui_ctx, Options::default()));
+    settle(&mut window);
+    window
+}
+
+fn show(window: &mut Window, pane: &str) {
+    window.get_by_role_and_label(Role::Button, pane).click();
+    // The pane asks for what it shows when it is seen.
+    window.run_steps(4);
+    settle(window);
+}
+
+fn set(window: &mut Window, socket: &str, value: f32) {
+    let edit = Edit::SetValue { socket: SocketRef::new("surface", socket), value: Some(Value::Number(value)) };
+    window.state_mut().act(Action::edit("Set", edit));
+    settle(window);
+}
+
+#[test]
+fn errors_are_measured_against_the_reference() {
+    let mut window = open();
+    // What the reference leaves out is told.
+    set(&mut window, "height", 0.2);
+    show(&mut window, "Accuracy");
+    window.get_by_label("Measure errors").click();
+    window.run_steps(2);
+    assert!(window.query_by_label("Stop").is_some());
+    settle(&mut window);
+    let rows = ["as it is", "karis", "hdre"];
+    assert!(rows.iter().all(|row| window.query_by_label(row).is_some()));
+    assert!(window.query_by_label_contains("paths for each pixel").is_some());
+    assert!(window.query_by_label_contains("The reference leaves out").is_some());
+    set(&mut window, "height", 0.1);
+    assert!(window.query_by_label_contains("has changed since").is_some());
+}
+
+#[test]
+fn the_furnace_is_lit_on_demand_and_a_measurement_is_stopped() {
+    let mut window = open();
+    show(&mut window, "Accuracy");
+    window.get_by_label("Furnace test").click();
+    settle(&mut window);
+    assert!(window.query_by_label("The material in the white furnace").is_some());
+    window.get_by_label("Measure errors").click();
+    window.run_steps(2);
+    window.get_by_label("Stop").click();
+    settle(&mut window);
+    assert!(window.query_by_label("karis").is_none());
+}
+
+#[test]
+fn costs_are_counted_and_colour_the_graph() {
+    let mut window = open();
+    show(&mut window, "Cost");
+    assert!(window.query_by_label_contains("fragment: ").is_some());
+    assert!(window.state().session().heat().is_empty());
+    window.get_by_label("Colour the graph").click();
+    settle(&mut window);
+    let heat = window.state().session().heat();
+    assert!(heat["chips"] > heat["roughness"], "{heat:?}");
+    window.get_all_by_label("Rust grain").last().unwrap().click();
+    window.run_steps(3);
+    assert!(window.state().session().selection().contains("grain"));
+}
+
+#[test]
+fn problems_lead_to_their_nodes_and_are_filtered() {
+    let mut window = open();
+    set(&mut window, "perceptual_roughness", 0.5);
+    window.state_mut().act(Action::edit("Unlink", Edit::RemoveNode { id: "grain".to_owned() }));
+    window.state_mut().act(Action::edit("Unlink", Edit::RemoveNode { id: "rust".to_owned() }));
+    window.state_mut().act(Action::edit("Unlink", Edit::RemoveNode { id: "base_color".to_owned() }));
+    window.state_mut().act(Action::edit("Unlink", Edit::RemoveNode { id: "roughness".to_owned() }));
+    settle(&mut window);
+    let count = window.state().session().problems().len();
+    assert!(count > 0);
+    window.get_by_label(&format!("Problems ({count})")).click();
+    settle(&mut window);
+    let links = |window: &Window| window.query_all_by_label("Enamel is left").count();
+    assert_eq!(links(&window), 1, "the warning names its node");
+    window.get_by_label("Enamel is left").click();
+    window.run_steps(3);
+    assert!(window.state().session().selection().contains("enamel"));
+    window.get_by_label("Warnings").click();
+    window.run_steps(3);
+    assert_eq!(links(&window), 0);
+}
+
+#[test]
+fn a_gpu_that_goes_while_it_draws_leaves_the_picture_to_the_cpu() {
+    let mut window = open();
+    if window.query_by_label_contains("Drawn on the CPU").is_some() {
+        println!("skipped: there is no GPU to lose");
+        return;
+    }
+    // Pictures of everything are being drawn when it goes.
+    set(&mut window, "metallic", 0.1);
+    window.get_by_role_and_label(Role::Button, "Library").click();
+    window.get_by_role_and_label(Role::Button, "View").click();
+    let edit = Edit::SetValue { socket: SocketRef::new("surface", "metallic"), value: Some(Value::Number(0.6)) };
+    window.state_mut().act(Action::edit("Set", edit));
+    window.run_steps(2);
+    assert!(!window.state().is_idle());
+    window.get_by_label("Draw on the CPU").click();
+    window.run_steps(2);
+    assert!(window.query_by_label_contains("Drawn on the CPU").is_some());
+    settle(&mut window);
+    assert!(window.query_by_label_contains("stopped while").is_none());
+    assert_eq!(window.state().drawn_by(), Some("CPU"));
+    window.get_by_label("Try the GPU again").click();
+    settle(&mut window);
+    assert!(window.query_by_label_contains("Drawn on the CPU:").is_none());
+    assert_ne!(window.state().drawn_by(), Some("CPU"));
+}
