@@ -26,7 +26,7 @@ fn coat_eval(frame: Frame, l: vec3f, p: Coat) -> vec3f {
     return finite_or_zero(f * (p.weight * (v * h.n_dot_l * d)));
 }
 
-/// Radiance that the coat reflects from an environment: `prefiltered_radiance` of the mirror direction at the coat's
+/// Radiance that the coat reflects from an environment: `prefiltered_radiance` about its reflection at the coat's
 /// roughness, times weight (f0 a + b) for the split-sum pair `dfg` at the coat's roughness.
 fn coat_environment(p: Coat, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
     return finite_or_zero(prefiltered_radiance * (p.weight * (p.f0 * dfg.x + dfg.y)));

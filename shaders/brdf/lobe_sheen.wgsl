@@ -44,8 +44,21 @@ fn sheen_eval(frame: Frame, l: vec3f, p: Sheen) -> vec3f {
     return finite_or_zero(p.color * (v * h.n_dot_l * d / max(most, 1.0)));
 }
 
+/// The direction, not unit, about which the sheen's light is gathered: the normal, leaning to the viewer, to whom fibres
+/// that stand up reflect most of what comes from behind them.
+fn sheen_direction(frame: Frame) -> vec3f {
+    return frame.normal + 0.4 * frame.view_dir;
+}
+
+/// Radiance filtered by the sheen's lobe, a ring that narrows to the horizon with the roughness r, from two lookups:
+/// `around`, the irradiance over pi about sheen_direction, and `middle`, prefiltered about the normal for a roughness near
+/// 0.56, which the ring does not see: max(around + (0.84 - 0.7 r) (around - middle), 0.4 around). Our own fit.
+fn sheen_ring(p: Sheen, around: vec3f, middle: vec3f) -> vec3f {
+    return max(around + (0.84 - 0.7 * p.perceptual_roughness) * (around - middle), 0.4 * around);
+}
+
 /// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1/1.06) times the radiance filtered by
-/// the lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
+/// the lobe: sheen_ring's, or, one lookup less and a worse fit, the irradiance over pi of the normal.
 fn sheen_environment(p: Sheen, n_dot_v: f32, prefiltered_radiance: vec3f) -> vec3f {
     let albedo = min(sheen_albedo(n_dot_v, p.perceptual_roughness), SHEEN_ALBEDO_CEILING);
     return finite_or_zero(p.color * albedo * prefiltered_radiance);

@@ -74,7 +74,7 @@ fn transmission_thin_compensation(f0: f32, dfg: vec2f) -> f32 {
 }
 
 /// The direction in which an environment is looked up for solid transmission: v refracted by the smooth surface, Snell's
-/// law; where it is totally reflected, the grazing ray. For a thin wall it is -v.
+/// law; where it is totally reflected, the grazing ray.
 fn transmission_direction(frame: Frame, eta: f32) -> vec3f {
     let inv_eta = 1.0 / max(eta, 1e-6);
     let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - frame.n_dot_v * frame.n_dot_v);
@@ -104,7 +104,8 @@ fn transmission_lookup(frame: Frame, eta: f32, alpha: f32) -> TransmissionLookup
 }
 
 /// Radiance that arrives through the surface from an environment: color (1 - f0 a - b) times the radiance of
-/// transmission_lookup, or of -v at the roughness itself for a thin wall, with the split-sum pair `dfg` and the interface's f0.
+/// transmission_lookup, or of a thin wall's lookup at the roughness itself, with the split-sum pair `dfg` and the interface's
+/// f0.
 /// The compression by eta^2 is left out: a ray that enters a body leaves it again.
 fn transmission_environment(p: Transmission, f0: f32, transmitted_radiance: vec3f, dfg: vec2f) -> vec3f {
     return finite_or_zero(p.color * saturate(1.0 - f0 * dfg.x - dfg.y) * transmitted_radiance);

@@ -38,7 +38,8 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 /// 1e-7, less than half precision resolves, keeps black finite.
 fn mix_levels(near: vec4f, far: vec4f, t: f32) -> vec3f {
     let tiny = 1e-7;
-    let rise = log2((far.r + far.g + far.b + tiny) / (near.r + near.g + near.b + tiny));
+    let one = vec3f(1.0);
+    let rise = log2((dot(far.rgb, one) + tiny) / (dot(near.rgb, one) + tiny));
     let bend = t * (1.0 - t) * ((1.0 - t) * (near.a - rise) - t * (far.a - rise));
     return max(exp2(mix(log2(near.rgb + tiny), log2(far.rgb + tiny), t) + bend) - tiny, vec3f(0.0));
 }

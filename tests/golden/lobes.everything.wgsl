@@ -2,7 +2,7 @@
 // serves: 2 directional lights, 1 point light, 3 spot lights, an environment, turned about +Y; returns display values
 //     through the tone map `pbr-neutral`
 // methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, compensation=turquin, coupling=view, dfg=table,
-//     prefilter=ggx, level_map=hermite, irradiance=cube, anisotropy=strips
+//     prefilter=ggx, level_map=hermite, irradiance=cube, reflection=leaning, sheen=ring, anisotropy=strips
 // left out: metal: metallic is 0: f0 comes from the index of refraction alone
 // left out: emission: it is 0
 // left out: occlusion: it is 1
@@ -114,7 +114,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     var strips = vec4f(0.0);
     for (var i = 0u; i < ANISOTROPIC_STRIPS; i++) {
         let strip = anisotropic_strip(frame, tangent, alphas.x, alphas.y, f32(i));
-        strips += strip.weight * vec4f(environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(strip.dir, view.environment_rotation), lod_geometric(strip.perceptual_roughness, view.environment_levels)), 1.0);
+        strips += strip.weight * vec4f(environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(specular_direction(frame, strip.dir, strip.perceptual_roughness), view.environment_rotation), lod_geometric(strip.perceptual_roughness, view.environment_levels)), 1.0);
     }
     let reflection = strips.rgb / strips.a;
     radiance += anisotropic_environment(specular, reflection, dfg) * compensation * under_layers;
@@ -122,9 +122,11 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let transmitted = environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(behind.dir, view.environment_rotation), lod_geometric(behind.perceptual_roughness, view.environment_levels));
     radiance += transmission_environment(transmission, 0.040000003, transmitted, dfg) * under_layers;
     let coat_mirror_dir = reflect(-frame.view_dir, frame.normal);
-    let coat_reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(coat_mirror_dir, view.environment_rotation), lod_geometric(0.1, view.environment_levels));
+    let coat_reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(specular_direction(frame, coat_mirror_dir, 0.1), view.environment_rotation), lod_geometric(0.1, view.environment_levels));
     radiance += coat_environment(coat, coat_reflection, coat_dfg) * under_sheen;
-    radiance += sheen_environment(sheen, frame.n_dot_v, irradiance);
+    let sheen_around = environment_sample(irradiance_over_pi, linear_clamp, rotate_about_y(sheen_direction(frame), view.environment_rotation), 0.0);
+    let sheen_middle = environment_sample(prefiltered_radiance, linear_clamp, rotate_about_y(frame.normal, view.environment_rotation), view.environment_levels - 2.0);
+    radiance += sheen_environment(sheen, frame.n_dot_v, sheen_ring(sheen, sheen_around, sheen_middle));
     let display = srgb_from_linear(tone_map_pbr_neutral(radiance * view.exposure));
     return vec4f(display, 1.0);
 }
@@ -442,7 +444,7 @@ fn coat_eval(frame: Frame, l: vec3f, p: Coat) -> vec3f {
     return finite_or_zero(f * (p.weight * (v * h.n_dot_l * d)));
 }
 
-/// Radiance that the coat reflects from an environment: `prefiltered_radiance` of the mirror direction at the coat's
+/// Radiance that the coat reflects from an environment: `prefiltered_radiance` about its reflection at the coat's
 /// roughness, times weight (f0 a + b) for the split-sum pair `dfg` at the coat's roughness.
 fn coat_environment(p: Coat, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
     return finite_or_zero(prefiltered_radiance * (p.weight * (p.f0 * dfg.x + dfg.y)));
@@ -530,8 +532,21 @@ fn sheen_eval(frame: Frame, l: vec3f, p: Sheen) -> vec3f {
     return finite_or_zero(p.color * (v * h.n_dot_l * d / max(most, 1.0)));
 }
 
+/// The direction, not unit, about which the sheen's light is gathered: the normal, leaning to the viewer, to whom fibres
+/// that stand up reflect most of what comes from behind them.
+fn sheen_direction(frame: Frame) -> vec3f {
+    return frame.normal + 0.4 * frame.view_dir;
+}
+
+/// Radiance filtered by the sheen's lobe, a ring that narrows to the horizon with the roughness r, from two lookups:
+/// `around`, the irradiance over pi about sheen_direction, and `middle`, prefiltered about the normal for a roughness near
+/// 0.56, which the ring does not see: max(around + (0.84 - 0.7 r) (around - middle), 0.4 around). Our own fit.
+fn sheen_ring(p: Sheen, around: vec3f, middle: vec3f) -> vec3f {
+    return max(around + (0.84 - 0.7 * p.perceptual_roughness) * (around - middle), 0.4 * around);
+}
+
 /// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1/1.06) times the radiance filtered by
-/// the lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
+/// the lobe: sheen_ring's, or, one lookup less and a worse fit, the irradiance over pi of the normal.
 fn sheen_environment(p: Sheen, n_dot_v: f32, prefiltered_radiance: vec3f) -> vec3f {
     let albedo = min(sheen_albedo(n_dot_v, p.perceptual_roughness), SHEEN_ALBEDO_CEILING);
     return finite_or_zero(p.color * albedo * prefiltered_radiance);
@@ -542,6 +557,17 @@ fn sheen_environment(p: Sheen, n_dot_v: f32, prefiltered_radiance: vec3f) -> vec
 fn sheen_base(p: Sheen, n_dot_v: f32) -> f32 {
     let albedo = min(sheen_albedo(n_dot_v, p.perceptual_roughness), 1.0);
     return saturate(1.0 - max(max(p.color.r, p.color.g), p.color.b) * albedo);
+}
+
+// ---- brdf/lobe_specular.wgsl
+
+/// The direction, not unit, from which the lobe's light comes in the mean: `mirror_dir` leaning to the normal by
+/// the cube of the perceptual roughness. A wide lobe is cut by the surface and shadowed where it grazes: at roughness 1 it
+/// sees what a diffuse surface sees. After Lagarde and de Rousiers 2014, Moving Frostbite to Physically Based Rendering,
+/// listing 22; the weight is our own fit.
+fn specular_direction(frame: Frame, mirror_dir: vec3f, perceptual_roughness: f32) -> vec3f {
+    let weight = perceptual_roughness * perceptual_roughness * perceptual_roughness;
+    return mix(mirror_dir, frame.normal, weight);
 }
 
 // ---- brdf/lobe_thin_film.wgsl
@@ -635,7 +661,7 @@ fn transmission_compensation(n_dot_v: f32, p: Transmission) -> f32 {
 }
 
 /// The direction in which an environment is looked up for solid transmission: v refracted by the smooth surface, Snell's
-/// law; where it is totally reflected, the grazing ray. For a thin wall it is -v.
+/// law; where it is totally reflected, the grazing ray.
 fn transmission_direction(frame: Frame, eta: f32) -> vec3f {
     let inv_eta = 1.0 / max(eta, 1e-6);
     let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - frame.n_dot_v * frame.n_dot_v);
@@ -665,7 +691,8 @@ fn transmission_lookup(frame: Frame, eta: f32, alpha: f32) -> TransmissionLookup
 }
 
 /// Radiance that arrives through the surface from an environment: color (1 - f0 a - b) times the radiance of
-/// transmission_lookup, or of -v at the roughness itself for a thin wall, with the split-sum pair `dfg` and the interface's f0.
+/// transmission_lookup, or of a thin wall's lookup at the roughness itself, with the split-sum pair `dfg` and the interface's
+/// f0.
 /// The compression by eta^2 is left out: a ray that enters a body leaves it again.
 fn transmission_environment(p: Transmission, f0: f32, transmitted_radiance: vec3f, dfg: vec2f) -> vec3f {
     return finite_or_zero(p.color * saturate(1.0 - f0 * dfg.x - dfg.y) * transmitted_radiance);
@@ -849,7 +876,8 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 /// 1e-7, less than half precision resolves, keeps black finite.
 fn mix_levels(near: vec4f, far: vec4f, t: f32) -> vec3f {
     let tiny = 1e-7;
-    let rise = log2((far.r + far.g + far.b + tiny) / (near.r + near.g + near.b + tiny));
+    let one = vec3f(1.0);
+    let rise = log2((dot(far.rgb, one) + tiny) / (dot(near.rgb, one) + tiny));
     let bend = t * (1.0 - t) * ((1.0 - t) * (near.a - rise) - t * (far.a - rise));
     return max(exp2(mix(log2(near.rgb + tiny), log2(far.rgb + tiny), t) + bend) - tiny, vec3f(0.0));
 }

@@ -2,7 +2,7 @@
 // serves: 2 directional lights, 1 point light, 3 spot lights, an environment, turned about +Y; returns display values
 //     through the tone map `pbr-neutral`
 // methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, compensation=turquin, coupling=view, dfg=table,
-//     prefilter=ggx, level_map=hermite, irradiance=cube, horizon=cone
+//     prefilter=ggx, level_map=hermite, irradiance=cube, horizon=cone, reflection=leaning
 // left out: emission: it is 0
 // left out: occlusion: it is 1
 // left out: opacity: the material is opaque
@@ -96,7 +96,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         radiance += specular_eval(frame, light.dir, specular) * compensation * light.illuminance;
     }
     let mirror_dir = reflect(-frame.view_dir, frame.normal);
-    let reflection_dir = rotate_about_y(mirror_dir, view.environment_rotation);
+    let reflection_dir = rotate_about_y(specular_direction(frame, mirror_dir, roughness.r), view.environment_rotation);
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, rotate_about_y(frame.normal, view.environment_rotation), 0.0);
     radiance += diffuse_environment(diffuse, irradiance);
     let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(roughness.r, view.environment_levels));
@@ -288,8 +288,17 @@ fn specular_eval(frame: Frame, l: vec3f, p: Specular) -> vec3f {
     return finite_or_zero(f * (v * h.n_dot_l * d));
 }
 
-/// Karis 2013, Real Shading in Unreal Engine 4, the split sum: prefiltered radiance of the mirror direction times the
-/// lobe's directional albedo.
+/// The direction, not unit, from which the lobe's light comes in the mean: `mirror_dir` leaning to the normal by
+/// the cube of the perceptual roughness. A wide lobe is cut by the surface and shadowed where it grazes: at roughness 1 it
+/// sees what a diffuse surface sees. After Lagarde and de Rousiers 2014, Moving Frostbite to Physically Based Rendering,
+/// listing 22; the weight is our own fit.
+fn specular_direction(frame: Frame, mirror_dir: vec3f, perceptual_roughness: f32) -> vec3f {
+    let weight = perceptual_roughness * perceptual_roughness * perceptual_roughness;
+    return mix(mirror_dir, frame.normal, weight);
+}
+
+/// Karis 2013, Real Shading in Unreal Engine 4, the split sum: prefiltered radiance about the reflection times
+/// the lobe's directional albedo.
 fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
     return finite_or_zero(prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg));
 }
@@ -375,7 +384,8 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 /// 1e-7, less than half precision resolves, keeps black finite.
 fn mix_levels(near: vec4f, far: vec4f, t: f32) -> vec3f {
     let tiny = 1e-7;
-    let rise = log2((far.r + far.g + far.b + tiny) / (near.r + near.g + near.b + tiny));
+    let one = vec3f(1.0);
+    let rise = log2((dot(far.rgb, one) + tiny) / (dot(near.rgb, one) + tiny));
     let bend = t * (1.0 - t) * ((1.0 - t) * (near.a - rise) - t * (far.a - rise));
     return max(exp2(mix(log2(near.rgb + tiny), log2(far.rgb + tiny), t) + bend) - tiny, vec3f(0.0));
 }

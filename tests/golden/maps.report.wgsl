@@ -1,6 +1,7 @@
 // Four maps, made by Halfvector
 // serves: an environment; returns linear radiance, Rec. 709
-// methods: coupling=none, dfg=table, prefilter=ggx, level_map=report, irradiance=last_level, encode=report
+// methods: coupling=none, dfg=table, prefilter=ggx, level_map=report, irradiance=last_level, reflection=mirror,
+//     encode=report
 // left out: energy compensation: the method is `none`: single scattering only
 // left out: emission: it is 0
 // left out: occlusion: it is 1
@@ -143,8 +144,8 @@ struct Specular {
     alpha: f32,
 }
 
-/// Karis 2013, Real Shading in Unreal Engine 4, the split sum: prefiltered radiance of the mirror direction times the
-/// lobe's directional albedo.
+/// Karis 2013, Real Shading in Unreal Engine 4, the split sum: prefiltered radiance about the reflection times
+/// the lobe's directional albedo.
 fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
     return finite_or_zero(prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg));
 }

@@ -1,7 +1,8 @@
 // Surface, made by Halfvector
 // serves: an environment; returns linear radiance, Rec. 709
 // methods: coupling=none, dfg=table, prefilter=ggx, level_map=report, irradiance=last_level,
-//     specular_occlusion=plain, anisotropy=strips, height_normals=report, encode=report
+//     specular_occlusion=plain, reflection=mirror, sheen=irradiance, anisotropy=strips, height_normals=report,
+//     encode=report
 // left out: energy compensation: the method is `none`: single scattering only
 // left out: horizon: the shading normal is the geometry's: no reflection comes from below
 // left out: opacity: the material is opaque
@@ -284,7 +285,7 @@ struct Coat {
     alpha: f32,
 }
 
-/// Radiance that the coat reflects from an environment: `prefiltered_radiance` of the mirror direction at the coat's
+/// Radiance that the coat reflects from an environment: `prefiltered_radiance` about its reflection at the coat's
 /// roughness, times weight (f0 a + b) for the split-sum pair `dfg` at the coat's roughness.
 fn coat_environment(p: Coat, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
     return finite_or_zero(prefiltered_radiance * (p.weight * (p.f0 * dfg.x + dfg.y)));
@@ -352,7 +353,7 @@ fn sheen_albedo(n_dot_w: f32, perceptual_roughness: f32) -> f32 {
 }
 
 /// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1/1.06) times the radiance filtered by
-/// the lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
+/// the lobe: sheen_ring's, or, one lookup less and a worse fit, the irradiance over pi of the normal.
 fn sheen_environment(p: Sheen, n_dot_v: f32, prefiltered_radiance: vec3f) -> vec3f {
     let albedo = min(sheen_albedo(n_dot_v, p.perceptual_roughness), SHEEN_ALBEDO_CEILING);
     return finite_or_zero(p.color * albedo * prefiltered_radiance);
@@ -414,7 +415,7 @@ struct Transmission {
 }
 
 /// The direction in which an environment is looked up for solid transmission: v refracted by the smooth surface, Snell's
-/// law; where it is totally reflected, the grazing ray. For a thin wall it is -v.
+/// law; where it is totally reflected, the grazing ray.
 fn transmission_direction(frame: Frame, eta: f32) -> vec3f {
     let inv_eta = 1.0 / max(eta, 1e-6);
     let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - frame.n_dot_v * frame.n_dot_v);
@@ -444,7 +445,8 @@ fn transmission_lookup(frame: Frame, eta: f32, alpha: f32) -> TransmissionLookup
 }
 
 /// Radiance that arrives through the surface from an environment: color (1 - f0 a - b) times the radiance of
-/// transmission_lookup, or of -v at the roughness itself for a thin wall, with the split-sum pair `dfg` and the interface's f0.
+/// transmission_lookup, or of a thin wall's lookup at the roughness itself, with the split-sum pair `dfg` and the interface's
+/// f0.
 /// The compression by eta^2 is left out: a ray that enters a body leaves it again.
 fn transmission_environment(p: Transmission, f0: f32, transmitted_radiance: vec3f, dfg: vec2f) -> vec3f {
     return finite_or_zero(p.color * saturate(1.0 - f0 * dfg.x - dfg.y) * transmitted_radiance);

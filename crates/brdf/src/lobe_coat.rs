@@ -40,7 +40,8 @@ pub fn coat_eval<R: Real>(frame: Frame<R>, l: [R; 3], p: Coat<R>) -> [R; 3] {
     finite_or_zero(scale(f, p.weight * (v * h.n_dot_l * d)))
 }
 
-/// Radiance that the coat reflects from an environment: `prefiltered_radiance` of the mirror direction at the coat's
+/// Radiance that the coat reflects from an environment: `prefiltered_radiance` of
+/// [`specular_direction`](crate::lobe_specular::specular_direction) at the coat's
 /// roughness, times weight (f0 a + b) for the split-sum pair `dfg` at the coat's roughness.
 ///
 /// Any input gives a finite result: a channel that would be NaN or infinite is 0.

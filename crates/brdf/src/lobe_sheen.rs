@@ -9,7 +9,7 @@ use crate::Real;
 use crate::frame::{Frame, half_from_light};
 use crate::math::finite_or_zero;
 use crate::sheen::{d_charlie, v_neubelt};
-use crate::vector::scale;
+use crate::vector::{add, scale};
 
 /// Smallest perceptual roughness of the fit of the albedo.
 const SHEEN_ROUGHNESS_FLOOR: f64 = 0.05;
@@ -60,8 +60,27 @@ pub fn sheen_eval<R: Real>(frame: Frame<R>, l: [R; 3], p: Sheen<R>) -> [R; 3] {
     finite_or_zero(scale(p.color, v * h.n_dot_l * d / most.max(R::ONE)))
 }
 
+/// The direction, not unit, about which the sheen's light is gathered: n + 0.4 v, the normal leaning to the viewer, to whom
+/// fibres that stand up reflect most of what comes from behind them.
+#[inline]
+pub fn sheen_direction<R: Real>(frame: Frame<R>) -> [R; 3] {
+    add(frame.normal, scale(frame.view_dir, R::of(0.4)))
+}
+
+/// Radiance filtered by the sheen's lobe, a ring that narrows to the horizon with the roughness r, from two lookups:
+/// `around`, the irradiance over pi about [`sheen_direction`], and `middle`, prefiltered about the normal for a roughness
+/// near 0.56, which the ring does not see: max(around + (0.84 - 0.7 r) (around - middle), 0.4 around).
+///
+/// Our own fit to the integral of light times the lobe, for r from 0.2: a little nearer to it than a map that is filtered by
+/// Charlie's distribution with n = v, and it needs none.
+#[inline]
+pub fn sheen_ring<R: Real>(p: Sheen<R>, around: [R; 3], middle: [R; 3]) -> [R; 3] {
+    let part = R::of(0.84) - R::of(0.7) * p.perceptual_roughness;
+    [0, 1, 2].map(|i| (around[i] + part * (around[i] - middle[i])).max(R::of(0.4) * around[i]))
+}
+
 /// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1/1.06) times the radiance filtered by
-/// the lobe. It is wide: who has no level filtered by Charlie's distribution gives the irradiance over pi.
+/// the lobe: [`sheen_ring`]'s, or, one lookup less and a worse fit, the irradiance over pi of the normal.
 ///
 /// Any input gives a finite result: a channel that would be NaN or infinite is 0.
 #[inline]

@@ -49,13 +49,22 @@ pub(crate) fn check_place(path: &Path) -> Result<(), Failure> {
 
 /// Writes a file whole: under another name in the same folder first, then renamed. Missing folders are made.
 pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).and_then(|()| halfvector_graph::file::replace(path, bytes)).map_err(|error| {
+    write_files(&[(path, bytes)])
+}
+
+/// Writes files that belong together as [`write_file`] does: all, or none.
+pub(crate) fn write_files(files: &[(&Path, &[u8])]) -> Result<(), Failure> {
+    let failed = |path: &Path, error: std::io::Error| {
         Failure::input("the file could not be written")
             .at(path)
             .because(error)
             .try_to("another folder, or one with more space or other permissions")
-    })
+    };
+    for (path, _) in files {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        std::fs::create_dir_all(folder).map_err(|error| failed(path, error))?;
+    }
+    halfvector_graph::file::replace_all(files).map_err(|(k, error)| failed(files[k].0, error))
 }
 
 /// A progress bar on stderr; nothing when stderr is not a terminal.

@@ -66,6 +66,8 @@ const FRAME: &[&str] = &[
     "coat_geometric_normal",
     "coat_horizon",
     "sheen",
+    "sheen_around",
+    "sheen_middle",
     "under_coat",
     "under_sheen",
     "under_layers",

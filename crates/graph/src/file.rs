@@ -138,29 +138,65 @@ pub fn save_group(path: &Path, group: &GroupFile) -> Result<(), FileError> {
 /// followed, so that the file it points to is replaced. What is there and is no file, such as a device or a pipe, keeps its
 /// name and is written to.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    if fs::metadata(path).is_ok_and(|old| !old.is_file()) {
-        return fs::OpenOptions::new().write(true).open(path)?.write_all(bytes);
+    replace_all(&[(path, bytes)]).map_err(|(_, error)| error)
+}
+
+/// Writes files that belong together, each as [`replace`] does, and none takes its name before all are written: where one
+/// has no room, nothing has changed.
+///
+/// # Errors
+/// The place in `files` of the one that failed, and why.
+pub fn replace_all(files: &[(&Path, &[u8])]) -> Result<(), (usize, io::Error)> {
+    let (mut staged, mut streams) = (Vec::new(), Vec::new());
+    for (k, &(path, bytes)) in files.iter().enumerate() {
+        if fs::metadata(path).is_ok_and(|old| !old.is_file()) {
+            streams.push((k, path, bytes));
+        } else {
+            staged.push((k, Staged::new(path, bytes).map_err(|error| (k, error))?));
+        }
     }
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.into());
-    let name =
-        target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
-    let (temporary, mut file) = create_beside(&target, name)?;
-    let written = file
-        .write_all(bytes)
-        .and_then(|()| file.sync_all())
-        .and_then(|()| {
-            drop(file);
-            match fs::metadata(&target) {
-                Ok(old) => fs::set_permissions(&temporary, old.permissions()),
-                Err(_) => Ok(()),
-            }
-        })
-        .and_then(|()| fs::rename(&temporary, &target));
-    if written.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&temporary);
+    for (k, path, bytes) in streams {
+        let written = fs::OpenOptions::new().write(true).open(path).and_then(|mut stream| stream.write_all(bytes));
+        written.map_err(|error| (k, error))?;
     }
-    written
+    for (k, file) in staged {
+        file.take_name().map_err(|error| (k, error))?;
+    }
+    Ok(())
+}
+
+/// A written temporary file, removed if it does not take its name.
+struct Staged {
+    temporary: PathBuf,
+    target: PathBuf,
+}
+
+impl Staged {
+    fn new(path: &Path, bytes: &[u8]) -> io::Result<Staged> {
+        let target = fs::canonicalize(path).unwrap_or_else(|_| path.into());
+        let name =
+            target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
+        let (temporary, mut file) = create_beside(&target, name)?;
+        let staged = Staged { temporary, target };
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        drop(file);
+        if let Ok(old) = fs::metadata(&staged.target) {
+            fs::set_permissions(&staged.temporary, old.permissions())?;
+        }
+        Ok(staged)
+    }
+
+    fn take_name(self) -> io::Result<()> {
+        fs::rename(&self.temporary, &self.target)
+    }
+}
+
+impl Drop for Staged {
+    fn drop(&mut self) {
+        // Gone when it has taken its name; otherwise the first error is the one to report.
+        let _ = fs::remove_file(&self.temporary);
+    }
 }
 
 /// A new, empty file beside `target`.

@@ -179,6 +179,28 @@ pub const TERMS: &[Term] = &[
         report: "none",
     },
     Term {
+        name: "reflection",
+        help: "where a rough surface's reflection of the environment is looked up",
+        methods: &[
+            method(
+                "leaning",
+                Some("specular_direction"),
+                "the mirror direction leaning to the normal by roughness^3, after Lagarde and de Rousiers 2014",
+            ),
+            method("mirror", None, "Karis 2013: the mirror direction at any roughness"),
+        ],
+        report: "mirror",
+    },
+    Term {
+        name: "sheen",
+        help: "light of the environment that the sheen reflects",
+        methods: &[
+            method("ring", Some("sheen_ring"), "two lookups: irradiance about a leaning normal, less the middle"),
+            method("irradiance", None, "the irradiance of the normal"),
+        ],
+        report: "irradiance",
+    },
+    Term {
         name: "anisotropy",
         help: "the environment's reflection on a brushed surface",
         methods: &[

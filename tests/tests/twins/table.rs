@@ -9,7 +9,7 @@ use halfvector_brdf::lobe_multiscatter::{
     Multiscatter, multiscatter_environment, multiscatter_eval, multiscatter_from_dfg,
 };
 use halfvector_brdf::lobe_sheen::{self, Sheen};
-use halfvector_brdf::lobe_specular::{Specular, specular_environment, specular_eval};
+use halfvector_brdf::lobe_specular::{Specular, specular_direction, specular_environment, specular_eval};
 use halfvector_brdf::lobe_thin_film::{
     ThinFilm, thin_film_cosine, thin_film_fresnel, thin_film_shift, thin_film_through,
 };
@@ -224,8 +224,11 @@ pub(crate) const TWINS: &[Twin] = &[
     }),
     twin!("brdf/lobe_sheen.wgsl" "sheen_albedo", [Cosine, Range(0.05, 1.0)], 512.0, 1.0, FLOAT, |x| [lobe_sheen::sheen_albedo(x[0], x[1])]),
     twin!("brdf/lobe_sheen.wgsl" "sheen_base", [Color(0.0, 1.0), Range(0.05, 1.0), Cosine], 512.0, 1.0, FLOAT, |x| [lobe_sheen::sheen_base(sheen_lobe(x), x[4])]),
+    twin!("brdf/lobe_sheen.wgsl" "sheen_direction", [Frame], 4.0, 1.0, DOUBLE, |x| lobe_sheen::sheen_direction(frame(x))),
     twin!("brdf/lobe_sheen.wgsl" "sheen_environment", [Color(0.0, 1.0), Range(0.05, 1.0), Cosine, Color(0.0, 1.0)], 512.0, 1.0, FLOAT, |x| lobe_sheen::sheen_environment(sheen_lobe(x), x[4], v(x, 5))),
     twin!("brdf/lobe_sheen.wgsl" "sheen_eval", [Frame, FrontOfLast, Color(0.0, 1.0), Range(0.2, 1.0)], 2048.0, 1.0, FLOAT, |x| lobe_sheen::sheen_eval(frame(x), v(x, 7), sheen_lobe(&x[10..]))),
+    twin!("brdf/lobe_sheen.wgsl" "sheen_ring", [Color(0.0, 1.0), Roughness, Color(0.0, 1e2), Color(0.0, 1e2)], 64.0, 100.0, DOUBLE, |x| lobe_sheen::sheen_ring(sheen_lobe(x), v(x, 4), v(x, 7))),
+    twin!("brdf/lobe_specular.wgsl" "specular_direction", [Frame, Unit, Roughness], 64.0, 1.0, DOUBLE, |x| specular_direction(frame(x), v(x, 7), x[10])),
     // The directions' own rounding is 1 / alpha times as large in D: roughness from 0.3 here, all of it in d_ggx and in
     // the test against the truth.
     twin!("brdf/lobe_specular.wgsl" "specular_eval", [Frame, FrontOfLast, Reflectances(1.0), Range(0.09, 1.0)], 64.0, 0.1, DOUBLE, |x| specular_eval(frame(x), v(x, 7), specular(x, 10))),

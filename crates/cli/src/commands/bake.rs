@@ -1,6 +1,6 @@
 //! `halfvector bake`: an environment, prefiltered for real-time light, as files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use halfvector_graph::needs::ToneMap;
 use halfvector_ibl::save::{CubeLevels, HDRE_LEVELS, SaveError, TexelFormat, hdre_face};
@@ -14,7 +14,7 @@ use halfvector_scene::{Display, EnvironmentSource, Picture, ggx_roughness};
 use crate::environment::{bake_with_bar, load};
 use crate::failure::Failure;
 use crate::harmonics_file;
-use crate::output::{check_place, note, progress, write_file};
+use crate::output::{check_place, note, progress, write_files};
 use crate::picture_file::png;
 use crate::set_value::numbers;
 
@@ -143,9 +143,8 @@ pub(crate) fn run(args: &BakeArgs) -> Result<u8, Failure> {
     if args.output.format == CubeFormat::Hdre && files[0].1.len() > HDRE_MAX_BYTES {
         note("note: readers of HDRE refuse files of more than 60 MB, and this one is larger; choose a smaller --size");
     }
-    for (path, bytes) in &files {
-        write_file(path, bytes)?;
-    }
+    let together: Vec<(&Path, &[u8])> = files.iter().map(|(path, bytes)| (path.as_path(), bytes.as_slice())).collect();
+    write_files(&together)?;
     note(format_args!("{}: {said}", args.output.path.display()));
     for (path, _) in &files[1..] {
         note(format_args!("{}", path.display()));

@@ -132,6 +132,16 @@ fn wrong_input_says_what_to_do() {
     assert!(!folder.path("x.ktx2").exists());
 }
 
+/// A name that is too long for a file fails when it is written: the first file is not left alone.
+#[test]
+fn all_files_or_none() {
+    let folder = Folder::new();
+    let long = format!("{}.json", "x".repeat(300));
+    folder.run(&["bake", "white", "-o", "x.ktx2", "--size", "8", "--sh", &long]).ends(1).says("could not be written");
+    let left = std::fs::read_dir(folder.path(".")).expect("a folder").flatten();
+    assert!(left.into_iter().all(|file| file.file_name() == "plain.material.json"), "files are left");
+}
+
 /// Radiance of the test's environment: each axis has its colour, and a lamp stands aside of all of them.
 fn light([x, y, z]: [f64; 3]) -> [f64; 3] {
     let lamp = 6.0 * (20.0 * (0.6 * x + 0.48 * y + 0.64 * z - 1.0)).exp();

@@ -28,12 +28,15 @@ impl Shading<'_, '_, '_> {
         let strips = self.strips();
         let by_mirror = plan.specular && (!strips || plan.horizon);
         if by_mirror || (plan.reads_irradiance() && last_level) {
-            let mut mirror = self.mirror()?;
-            if plan.horizon && plan.environment == Some(true) {
-                self.line(&format!("let mirror_dir = {mirror};"));
-                mirror = "mirror_dir".into();
+            let mut direction = self.mirror()?;
+            if self.has_mirror() {
+                self.line(&format!("let mirror_dir = {direction};"));
+                direction = "mirror_dir".into();
             }
-            let direction = self.turned(&mirror)?;
+            if self.leans() {
+                direction = self.leaned("frame", &direction, &self.specular_roughness.clone())?;
+            }
+            let direction = self.turned(&direction)?;
             self.line(&format!("let reflection_dir = {direction};"));
         }
         if plan.reads_irradiance() {
@@ -42,6 +45,28 @@ impl Shading<'_, '_, '_> {
         }
         self.base()?;
         self.layers_above()
+    }
+
+    /// Whether the base's reflection is looked up between the mirror direction and the normal.
+    fn leans(&self) -> bool {
+        self.parts.plan.specular && self.leaning()
+    }
+
+    /// Where a lobe about a mirror direction is looked up.
+    fn leaned(&mut self, frame: &str, mirror: &str, roughness: &str) -> Result<String, CodegenError> {
+        if !self.leaning() {
+            return Ok(mirror.to_owned());
+        }
+        Ok(format!("{}({frame}, {mirror}, {roughness})", self.writer.library("specular_direction")?))
+    }
+
+    fn leaning(&self) -> bool {
+        self.parts.needs.methods.is("reflection", "leaning")
+    }
+
+    /// Whether the mirror direction in the world is not where the base's reflection is looked up, and wanted.
+    fn has_mirror(&self) -> bool {
+        self.parts.plan.horizon && (self.leans() || self.parts.plan.environment == Some(true))
     }
 
     /// Whether the base's reflection is a row of lookups.
@@ -57,7 +82,8 @@ impl Shading<'_, '_, '_> {
             return Ok(());
         }
         let (strip, count) = (self.writer.library("anisotropic_strip")?, self.writer.library("ANISOTROPIC_STRIPS")?);
-        let direction = self.turned("strip.dir")?;
+        let direction = self.leaned("frame", "strip.dir", "strip.perceptual_roughness")?;
+        let direction = self.turned(&direction)?;
         let sample = self.prefiltered(&direction, "strip.perceptual_roughness")?;
         self.line("var strips = vec4f(0.0);");
         self.line(&format!("for (var i = 0u; i < {count}; i++) {{"));
@@ -80,15 +106,22 @@ impl Shading<'_, '_, '_> {
 
     /// Diffuse light over pi about the normal.
     fn irradiance(&mut self) -> Result<String, CodegenError> {
+        if self.parts.needs.methods.is("irradiance", "last_level") {
+            return self.prefiltered("reflection_dir", "1.0");
+        }
+        self.irradiance_about("frame.normal")
+    }
+
+    /// Diffuse light over pi about a unit direction of the world, or any where it is a cube.
+    fn irradiance_about(&mut self, direction: &str) -> Result<String, CodegenError> {
+        let direction = self.turned(direction)?;
         match self.parts.needs.methods.get("irradiance").name {
             "sh2" => {
-                let direction = self.turned("frame.normal")?;
                 let coefficients = self.writer.view(ViewMember::IrradianceSh);
                 Ok(format!("{}({coefficients}, {direction})", self.writer.library("irradiance_sh2")?))
             }
-            "last_level" => self.prefiltered("reflection_dir", "1.0"),
+            "last_level" => self.prefiltered(&direction, "1.0"),
             _ => {
-                let direction = self.turned("frame.normal")?;
                 let cube = self.writer.environment(EnvironmentTexture::IrradianceOverPi);
                 let sample = self.writer.library("environment_sample")?;
                 self.encoded(format!("{sample}({cube}, {direction}, 0.0)"))
@@ -113,7 +146,7 @@ impl Shading<'_, '_, '_> {
             let width = self.specular_roughness.clone();
             self.reflection(&width)?;
             let compensated = if plan.compensation { " * compensation" } else { "" };
-            let dir = if plan.environment == Some(true) { "mirror_dir" } else { "reflection_dir" };
+            let dir = if self.has_mirror() { "mirror_dir" } else { "reflection_dir" };
             let mirror = Mirror { name: "", frame: "frame", roughness: &width, dir, horizon: plan.horizon };
             let hidden = self.hidden(&mirror)?;
             let lobe = self.writer.library(if plan.anisotropy {
@@ -125,7 +158,9 @@ impl Shading<'_, '_, '_> {
         }
         if plan.transmission {
             let transmitted = if plan.thin_walled {
-                let direction = self.turned("-frame.view_dir")?;
+                let mut direction = self.leaned("frame", "frame.view_dir", &roughness)?;
+                direction.insert(0, '-');
+                let direction = self.turned(&direction)?;
                 self.prefiltered(&direction, &roughness)?
             } else {
                 let lookup = self.writer.library("transmission_lookup")?;
@@ -134,7 +169,12 @@ impl Shading<'_, '_, '_> {
                 self.prefiltered(&direction, "behind.perceptual_roughness")?
             };
             self.line(&format!("let transmitted = {transmitted};"));
-            let (lobe, f0) = (self.writer.library("transmission_environment")?, self.root("dielectric_f0", "0.0"));
+            let (lobe, mut f0) = (self.writer.library("transmission_environment")?, self.root("dielectric_f0", "0.0"));
+            if plan.seen_from_inside() {
+                // From inside nothing comes through beyond the critical angle, of which f0 knows nothing.
+                let fresnel = self.writer.library("f_dielectric")?;
+                f0 = format!("select({fresnel}(transmission.eta, frame.n_dot_v), {f0}, front_facing)");
+            }
             self.add(&format!("{lobe}(transmission, {f0}, transmitted, dfg){base}"));
         }
         Ok(())
@@ -146,7 +186,8 @@ impl Shading<'_, '_, '_> {
         if plan.coat {
             let (frame, roughness) = (self.coat_frame, self.root("coat_roughness", "0.0"));
             self.line(&format!("let coat_mirror_dir = reflect(-{frame}.view_dir, {frame}.normal);"));
-            let direction = self.turned("coat_mirror_dir")?;
+            let direction = self.leaned(frame, "coat_mirror_dir", &roughness)?;
+            let direction = self.turned(&direction)?;
             let reflection = self.prefiltered(&direction, &roughness)?;
             self.line(&format!("let coat_reflection = {reflection};"));
             let (dir, horizon) = ("coat_mirror_dir", plan.coat_horizon);
@@ -156,9 +197,26 @@ impl Shading<'_, '_, '_> {
         }
         if plan.sheen {
             let (lobe, occlusion) = (self.writer.library("sheen_environment")?, self.occlusion());
-            self.add(&format!("{lobe}(sheen, frame.n_dot_v, irradiance){occlusion}"));
+            let light = if plan.sheen_ring { self.sheen_ring()? } else { "irradiance".into() };
+            self.add(&format!("{lobe}(sheen, frame.n_dot_v, {light}){occlusion}"));
         }
         Ok(())
+    }
+
+    /// The environment's light as the sheen sees it, by two lookups: the second in the last level but one.
+    fn sheen_ring(&mut self) -> Result<String, CodegenError> {
+        let mut direction = format!("{}(frame)", self.writer.library("sheen_direction")?);
+        if self.parts.needs.methods.is("irradiance", "sh2") {
+            direction = format!("normalize({direction})");
+        }
+        let around = self.irradiance_about(&direction)?;
+        self.line(&format!("let sheen_around = {around};"));
+        let (direction, sample) = (self.turned("frame.normal")?, self.writer.library("environment_sample")?);
+        let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
+        let levels = self.writer.view(ViewMember::EnvironmentLevels);
+        let middle = self.encoded(format!("{sample}({cube}, {direction}, {levels} - 2.0)"))?;
+        self.line(&format!("let sheen_middle = {middle};"));
+        Ok(format!("{}(sheen, sheen_around, sheen_middle)", self.writer.library("sheen_ring")?))
     }
 
     /// The factor of what arrives under an occlusion map.

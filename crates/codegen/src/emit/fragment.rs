@@ -173,7 +173,10 @@ impl Shading<'_, '_, '_> {
             let lobe = self.writer.library("Transmission")?;
             let (color, weight) = (self.root("diffuse_color", "vec3f(0.5)"), self.root("transmission_weight", "0.0"));
             let film = if plan.thin_film { " * film_through" } else { "" };
-            let (ior, alpha) = (self.root("ior", "1.5"), self.alpha(&roughness)?);
+            let (mut ior, alpha) = (self.root("ior", "1.5"), self.alpha(&roughness)?);
+            if plan.seen_from_inside() {
+                ior = format!("select(1.0 / {ior}, {ior}, front_facing)");
+            }
             self.line(&format!("let transmission = {lobe}({color} * {weight}{film}, {ior}, {alpha});"));
             if let Some(gain) = self.transmission_gain()? {
                 self.line(&format!("let transmission_gain = {gain};"));

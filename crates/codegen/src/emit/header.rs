@@ -74,6 +74,11 @@ fn methods(plan: &Plan, needs: &Needs) -> String {
         "coupling" => plan.diffuse && plan.specular,
         "dfg" => plan.reads_dfg() || plan.coat,
         "level_map" | "prefilter" => (plan.specular || plan.coat || plan.transmission) && environment,
+        "reflection" => {
+            let thin = plan.transmission && plan.thin_walled;
+            (plan.specular || plan.coat || thin) && environment
+        }
+        "sheen" => plan.sheen && environment,
         "specular_occlusion" => (plan.specular || plan.coat) && plan.occlusion,
         "horizon" => plan.horizon || plan.coat_horizon,
         "anisotropy" => plan.anisotropy && environment,

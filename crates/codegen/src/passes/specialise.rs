@@ -39,6 +39,8 @@ pub(crate) struct Plan {
     /// Layers over the base, the sheen outermost.
     pub(crate) coat: bool,
     pub(crate) sheen: bool,
+    /// Whether the sheen looks up light of its own in an environment.
+    pub(crate) sheen_ring: bool,
     /// Light that passes through the dielectric base.
     pub(crate) transmission: bool,
     /// Whether the body that it passes is a sheet.
@@ -105,9 +107,14 @@ impl Plan {
         self.diffuse || self.specular || self.transmission
     }
 
+    /// Whether the viewer may be in the body that light passes through.
+    pub(crate) fn seen_from_inside(&self) -> bool {
+        self.transmission && !self.thin_walled && self.double_sided
+    }
+
     /// Whether the irradiance of the environment is read.
     pub(crate) fn reads_irradiance(&self) -> bool {
-        self.environment.is_some() && (self.diffuse || self.multiscatter || self.sheen)
+        self.environment.is_some() && (self.diffuse || self.multiscatter || (self.sheen && !self.sheen_ring))
     }
 
     pub(crate) fn drop_it(&mut self, what: &str, why: impl Into<String>) {
@@ -317,6 +324,7 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     // Layers dim what the surface sends out itself, also where nothing shines on them.
     plan.coat = (lit || plan.emission) && !absent(&known, "coat_weight");
     plan.sheen = (lit || plan.emission) && !absent(&known, "sheen_color");
+    plan.sheen_ring = plan.sheen && plan.environment.is_some() && needs.methods.is("sheen", "ring");
     plan.occlusion = plan.environment.is_some() && plan.is_lit() && !known.surface("occlusion", 1.0);
     if plan.environment.is_some() && !plan.occlusion {
         plan.drop_it("occlusion", "it is 1");

@@ -87,6 +87,20 @@ fn both_sides_turn_the_shading_normal() {
     assert!(!exported(&material("", "", ""), &sun()).wgsl.contains("front_facing"));
 }
 
+/// From inside light leaves the body: the index is turned about, and beyond the critical angle nothing comes through.
+#[test]
+fn a_solid_body_may_be_seen_from_inside() {
+    let mut document = material(r#""transmission_weight": 1"#, "", "");
+    assert!(!exported(&document, &environment()).wgsl.contains("front_facing"));
+    document.surface.double_sided = true;
+    let shader = exported(&document, &environment());
+    let fragment = part(&shader, "fs_main");
+    assert!(fragment.contains("select(1.0 / 1.5, 1.5, front_facing)"), "{fragment}");
+    assert!(fragment.contains("f_dielectric(transmission.eta, frame.n_dot_v)"), "{fragment}");
+    document.surface.thin_walled = true;
+    assert!(!part(&exported(&document, &environment()), "fs_main").contains("1.0 /"));
+}
+
 #[test]
 fn only_tbn_reads_tangents() {
     let with = |method: &str| {

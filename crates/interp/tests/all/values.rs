@@ -183,3 +183,18 @@ fn wrong_columns_are_told() {
     assert!(run(&[Column::Word(&[1]), Column::Word(&[1])]).contains("input 0 (`a`) has a column of another type"));
     assert!(run(&[Column::Float(&[1.0]), Column::Word(&[])]).contains("fewer numbers"));
 }
+
+/// What is the same in all lanes beside what is not, in every place of an operation of three.
+#[test]
+fn three_operands_the_same_or_not() {
+    let source = "
+        fn weight(r: f32) -> f32 { return r * r * r; }
+        fn lean(n: vec3f, v: vec3f, r: f32) -> vec3f { return mix(reflect(-v, n), n, weight(r)); }
+        struct Both { a: vec3f, b: vec3f }
+        fn f(n: vec3f, v: vec3f, r: f32) -> Both { return Both(lean(n, v, 1.0), lean(n, v, r)); }";
+    let columns: [[f32; 2]; 7] = [[0.6, 0.0], [0.8, 0.0], [0.0, 1.0], [0.0, 0.6], [1.0, 0.0], [0.0, 0.8], [1.0, 1.0]];
+    let inputs: Vec<Column<'_, f32>> = columns.iter().map(|c| Column::Float(c)).collect();
+    for row in run::<f32>(source, &inputs, 2) {
+        assert_eq!(row[..3], row[3..]);
+    }
+}

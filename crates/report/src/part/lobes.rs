@@ -13,8 +13,8 @@ use halfvector_brdf::lobe_anisotropic::{
     anisotropic_reflection, anisotropic_strip,
 };
 use halfvector_brdf::lobe_coat::{Coat, coat_environment, coat_eval};
-use halfvector_brdf::lobe_sheen::{Sheen, sheen_environment, sheen_eval};
-use halfvector_brdf::lobe_specular::{Specular, specular_environment, specular_eval};
+use halfvector_brdf::lobe_sheen::{Sheen, sheen_direction, sheen_environment, sheen_eval, sheen_ring};
+use halfvector_brdf::lobe_specular::{Specular, specular_direction, specular_environment, specular_eval};
 use halfvector_brdf::lobe_thin_film::{ThinFilm, thin_film_cosine, thin_film_fresnel};
 use halfvector_brdf::lobe_transmission::{
     Transmission, f0_of_sheet, transmission_compensation, transmission_direction, transmission_environment,
@@ -55,6 +55,7 @@ pub fn rows(effort: Effort) -> Vec<Row> {
         let Source::Equirect(map) = &environment.source else { continue };
         let light = Light::new(name, map.area_resampled(2 * ROWS, ROWS));
         let count = effort.pick(2, 12);
+        rows.extend(specular(&light, count));
         rows.extend(coat(&light, count));
         rows.extend(sheen(&light, count));
         rows.extend(anisotropy(&light, count));
@@ -101,6 +102,11 @@ impl Light {
 
     fn irradiance(&self, dir: [f64; 3]) -> [f64; 3] {
         environment_sample(std::slice::from_ref(&self.baked.irradiance_over_pi), dir, 0.0).map(f64::from)
+    }
+
+    /// What the sheen's ring does not see.
+    fn last_but_one(&self, dir: [f64; 3]) -> [f64; 3] {
+        environment_sample(&self.baked.radiance, dir, self.baked.radiance.len() as f64 - 2.0).map(f64::from)
     }
 
     /// A row for each method: its values against the truth.
@@ -162,6 +168,10 @@ fn mirror(frame: Frame<f64>) -> [f64; 3] {
     std::array::from_fn(|i| twice * frame.normal[i] - frame.view_dir[i])
 }
 
+fn leaning(frame: Frame<f64>, roughness: f64) -> [f64; 3] {
+    specular_direction(frame, mirror(frame), roughness)
+}
+
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
@@ -178,6 +188,25 @@ fn say(frame: Frame<f64>, roughness: f64) -> String {
     format!("n.v {:.2}, roughness {roughness}, normal {:.3?}", frame.n_dot_v, frame.normal)
 }
 
+/// The base's own reflection: beside it stand the lobes that are looked up in the same way.
+fn specular(light: &Light, count: usize) -> Vec<Row> {
+    let cases = with(count, ROUGHNESS).flat_map(|(frame, r)| {
+        F0.map(|f0| {
+            let (lobe, pair) = (Specular { f0, f90: [1.0; 3], alpha: r * r }, split_sum(frame, r));
+            let value = |dir| specular_environment(lobe, light.radiance(dir, r), pair);
+            Case {
+                at: format!("{}, f0 {f0:?}", say(frame, r)),
+                truth: light.integral(|l| specular_eval(frame, l, lobe)),
+                values: [value(leaning(frame, r)), value(mirror(frame))],
+            }
+        })
+    });
+    light.table("reflection", "n.v 0.2 to 0.9, roughness 0.2 to 1, gold and a dielectric", LOOKUPS, cases)
+}
+
+/// The methods of the term `reflection`.
+const LOOKUPS: [&str; 2] = ["leaning", "mirror"];
+
 fn coat(light: &Light, count: usize) -> Vec<Row> {
     let cases = with(count, ROUGHNESS).map(|(frame, r)| {
         let lobe = Coat { weight: 1.0, color: [1.0; 3], f0: 0.04, alpha: r * r };
@@ -185,10 +214,10 @@ fn coat(light: &Light, count: usize) -> Vec<Row> {
         Case {
             at: say(frame, r),
             truth: light.integral(|l| coat_eval(frame, l, lobe)),
-            values: [coat_environment(lobe, light.radiance(mirror(frame), r), pair)],
+            values: [leaning(frame, r), mirror(frame)].map(|dir| coat_environment(lobe, light.radiance(dir, r), pair)),
         }
     });
-    light.table("coat", "n.v 0.2 to 0.9, roughness 0.2 to 1", ["second lookup"], cases)
+    light.table("coat", "n.v 0.2 to 0.9, roughness 0.2 to 1", LOOKUPS, cases)
 }
 
 fn sheen(light: &Light, count: usize) -> Vec<Row> {
@@ -197,10 +226,14 @@ fn sheen(light: &Light, count: usize) -> Vec<Row> {
         Case {
             at: say(frame, r),
             truth: light.integral(|l| sheen_eval(frame, l, lobe)),
-            values: [sheen_environment(lobe, frame.n_dot_v, light.irradiance(frame.normal))],
+            values: [
+                sheen_ring(lobe, light.irradiance(sheen_direction(frame)), light.last_but_one(frame.normal)),
+                light.irradiance(frame.normal),
+            ]
+            .map(|radiance| sheen_environment(lobe, frame.n_dot_v, radiance)),
         }
     });
-    light.table("sheen", "n.v 0.2 to 0.9, roughness 0.2 to 1", ["irradiance of the normal"], cases)
+    light.table("sheen", "n.v 0.2 to 0.9, roughness 0.2 to 1", ["ring", "irradiance"], cases)
 }
 
 fn anisotropy(light: &Light, count: usize) -> Vec<Row> {
@@ -214,14 +247,16 @@ fn anisotropy(light: &Light, count: usize) -> Vec<Row> {
             let mut sum = [0.0; 4];
             for i in 0..ANISOTROPIC_STRIPS {
                 let strip = anisotropic_strip(frame, aside, alpha_t, alpha_b, f64::from(i));
-                let radiance = light.radiance(strip.dir, strip.perceptual_roughness);
+                let dir = specular_direction(frame, strip.dir, strip.perceptual_roughness);
+                let radiance = light.radiance(dir, strip.perceptual_roughness);
                 for (sum, x) in sum.iter_mut().zip([radiance[0], radiance[1], radiance[2], 1.0]) {
                     *sum += strip.weight * x;
                 }
             }
             let strips = [sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]];
-            let bent = light.radiance(anisotropic_reflection(frame, aside, strength, r), width);
-            let round = light.radiance(mirror(frame), width);
+            let bent = light
+                .radiance(specular_direction(frame, anisotropic_reflection(frame, aside, strength, r), width), width);
+            let round = light.radiance(leaning(frame, width), width);
             Case {
                 at: format!("{}, anisotropy {strength}", say(frame, r)),
                 truth: light.integral(|l| anisotropic_eval(frame, l, lobe)),
@@ -258,15 +293,16 @@ fn thin_walled(light: &Light, count: usize) -> Vec<Row> {
     let cases = with(count, ROUGHNESS).map(|(frame, r)| {
         let lobe = Transmission { color: [1.0; 3], eta: 1.5, alpha: r * r };
         let (f0, pair) = (f0_of_sheet(f0_from_ior(1.5), 1.0), split_sum(frame, r));
-        let behind = frame.view_dir.map(|x| -x);
         let gain = transmission_thin_compensation(f0, pair);
         Case {
             at: say(frame, r),
             truth: light.integral(|l| transmission_thin_eval(frame, l, lobe).map(|x| x * gain)),
-            values: [transmission_environment(lobe, f0, light.radiance(behind, r), pair)],
+            values: [specular_direction(frame, frame.view_dir, r), frame.view_dir]
+                .map(|here| transmission_environment(lobe, f0, light.radiance(here.map(|x| -x), r), pair)),
         }
     });
-    light.table("transmission", "a thin wall, n.v 0.2 to 0.9, roughness 0.2 to 1, ior 1.5", ["straight through"], cases)
+    let methods = ["leaning", "straight through"];
+    light.table("transmission", "a thin wall, n.v 0.2 to 0.9, roughness 0.2 to 1, ior 1.5", methods, cases)
 }
 
 fn thin_film(light: &Light, count: usize) -> Vec<Row> {
@@ -275,7 +311,7 @@ fn thin_film(light: &Light, count: usize) -> Vec<Row> {
             let film = ThinFilm { weight: 1.0, thickness, ior };
             let (f0, f90, pair) = (F0[k % F0.len()], [1.0; 3], split_sum(frame, r));
             let fresnel = |cosine| thin_film_fresnel(f0, f90, film, cosine);
-            let radiance = light.radiance(mirror(frame), r);
+            let radiance = light.radiance(leaning(frame, r), r);
             let value = |f0, f90| specular_environment(Specular { f0, f90, alpha: r * r }, radiance, pair);
             let truth = light.integral(|l| {
                 let f = fresnel(half_from_light(frame, l).l_dot_h);
@@ -303,7 +339,7 @@ fn occlusion(light: &Light, count: usize) -> Vec<Row> {
             let (lobe, pair) = (Specular { f0: F0[0], f90: [1.0; 3], alpha: r * r }, split_sum(frame, r));
             let edge = (1.0 - open).sqrt();
             let inside = |l| if dot(frame.normal, l) > edge { specular_eval(frame, l, lobe) } else { [0.0; 3] };
-            let whole = specular_environment(lobe, light.radiance(mirror(frame), r), pair);
+            let whole = specular_environment(lobe, light.radiance(leaning(frame, r), r), pair);
             let parts = [
                 specular_occlusion_cone(frame.n_dot_v, open, r),
                 specular_occlusion_lagarde(frame.n_dot_v, open, r),
@@ -329,7 +365,7 @@ fn horizon(light: &Light, count: usize) -> Vec<Row> {
             let g: [f64; 3] = std::array::from_fn(|i| cos * frame.normal[i] + sin * aside[i]);
             let (lobe, pair) = (Specular { f0: F0[0], f90: [1.0; 3], alpha: r * r }, split_sum(frame, r));
             let above = |l| if dot(g, l) > 0.0 { specular_eval(frame, l, lobe) } else { [0.0; 3] };
-            let whole = specular_environment(lobe, light.radiance(mirror(frame), r), pair);
+            let whole = specular_environment(lobe, light.radiance(leaning(frame, r), r), pair);
             let r_dot_g = dot(mirror(frame), g);
             let parts =
                 [horizon_cone(r_dot_g, cos, frame.n_dot_v, r), horizon_squared(r_dot_g, cos, frame.n_dot_v, r), 1.0];
@@ -349,15 +385,16 @@ mod tests {
     use super::*;
 
     /// Largest rms error of each default, in the studio and under the sky: what is measured, and a tenth.
-    const BOUNDS: [(&str, &str, f64, f64); 8] = [
-        ("coat", "second lookup", 0.6, 0.24),
-        ("sheen", "irradiance of the normal", 0.34, 0.34),
+    const BOUNDS: [(&str, &str, f64, f64); 9] = [
+        ("reflection", "leaning", 0.5, 0.15),
+        ("coat", "leaning", 0.6, 0.15),
+        ("sheen", "ring", 0.25, 0.23),
         ("anisotropy", "strips, 5 lookups", 0.31, 0.25),
         ("transmission", "leaning facet, refracted width", 0.19, 0.1),
-        ("transmission", "straight through", 1.33, 0.8),
-        ("thin_film", "at the split sum's mean cosine", 0.45, 0.23),
-        ("specular_occlusion", "cone", 0.53, 0.84),
-        ("horizon", "cone", 0.46, 0.26),
+        ("transmission", "leaning", 0.72, 0.26),
+        ("thin_film", "at the split sum's mean cosine", 0.55, 0.35),
+        ("specular_occlusion", "cone", 0.8, 0.78),
+        ("horizon", "cone", 0.39, 0.17),
     ];
 
     #[test]
@@ -374,8 +411,8 @@ mod tests {
                 let row = rows.iter().find(|r| of(r) && r.method == method).expect("a row of the part");
                 let rms = row.error_rms.expect("measured");
                 assert!(rms <= bound, "{name} {term} {method}: {rms}");
-                // No other method of the same domain is better by more than a tenth.
-                let much_less = |r: &&Row| 1.1 * r.error_rms.expect("measured") < rms;
+                // No other method of the same domain is better by more than a seventh: there are few frames.
+                let much_less = |r: &&Row| 1.15 * r.error_rms.expect("measured") < rms;
                 let better = rows.iter().filter(of).filter(much_less).find(|r| r.domain == row.domain);
                 assert!(better.is_none(), "{name} {term} {method}: {rms}, but {better:?}");
             }
@@ -389,6 +426,7 @@ mod tests {
         let cells = cells(&Equirect { width: 256, height: 128, pixels: vec![[1.0; 3]; 256 * 128] });
         let light = Light { cells, ..light };
         let bounds = [
+            (specular(&light, 1), 0.01),
             (coat(&light, 1), 0.01),
             (sheen(&light, 1), 0.03),
             (anisotropy(&light, 1), 0.15),
