@@ -11,6 +11,7 @@ mod library;
 mod measures;
 mod opening;
 mod palette;
+mod snapshots;
 mod story;
 mod undo;
 mod viewport;

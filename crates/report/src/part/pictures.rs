@@ -3,6 +3,8 @@
 //!
 //! The examples are read from the folder `examples` of the project, where the program is run; elsewhere there are no rows.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -30,7 +32,8 @@ const SAMPLES: u32 = 4;
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
     let renderer = Renderer::new().ok();
-    examples().iter().flat_map(|path| example(path, renderer.as_ref(), effort).unwrap_or_default()).collect()
+    let bakes = Bakes::default();
+    examples().iter().flat_map(|path| example(path, renderer.as_ref(), &bakes, effort).unwrap_or_default()).collect()
 }
 
 /// The documents of the folder itself, in order of name; those of folders within it are for other ends.
@@ -58,18 +61,25 @@ fn radiance(picture: &Picture) -> Vec<[f64; 3]> {
     picture.pixels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect()
 }
 
+/// Environments that are baked already, by what they are and how: most examples are lit by the same one.
+type Bakes = RefCell<HashMap<String, Arc<BakedEnvironment>>>;
+
 /// An example's scene with what it is lit by.
-struct Example {
+struct Example<'b> {
     scene: Scene,
+    bakes: &'b Bakes,
     loaded: Option<LoadedEnvironment>,
     name: String,
     size: u32,
 }
 
-impl Example {
+impl Example<'_> {
     fn baked(&self, scene: &Scene) -> Option<Arc<BakedEnvironment>> {
         let loaded = self.loaded.as_ref()?;
-        Some(Arc::new(bake(loaded, &bake_options(&scene.environment, &scene.methods, loaded))))
+        let options = bake_options(&scene.environment, &scene.methods, loaded);
+        let mut bakes = self.bakes.borrow_mut();
+        let key = format!("{:?}, {options:?}", scene.environment);
+        Some(bakes.entry(key).or_insert_with(|| Arc::new(bake(loaded, &options))).clone())
     }
 
     fn row(&self, method: &str, against: &str) -> Row {
@@ -81,7 +91,7 @@ impl Example {
     }
 }
 
-fn example(path: &Path, renderer: Option<&Renderer>, effort: Effort) -> Option<Vec<Row>> {
+fn example(path: &Path, renderer: Option<&Renderer>, bakes: &Bakes, effort: Effort) -> Option<Vec<Row>> {
     let mut scene = load(path)?;
     // What the reference has no truth for.
     for term in ["encode", "env_decode"] {
@@ -90,7 +100,7 @@ fn example(path: &Path, renderer: Option<&Renderer>, effort: Effort) -> Option<V
     }
     let loaded = scene.environment.load().ok()?;
     let name = path.file_name()?.to_str()?.trim_end_matches(".json").to_owned();
-    let example = Example { scene, loaded, name, size: effort.pick(32, 128) as u32 };
+    let example = Example { scene, bakes, loaded, name, size: effort.pick(32, 128) as u32 };
     let Example { scene, size, .. } = &example;
     let baked = example.baked(scene);
 
@@ -128,7 +138,7 @@ fn example(path: &Path, renderer: Option<&Renderer>, effort: Effort) -> Option<V
 }
 
 /// The report's own forms, as far as a shader shows them in radiance, against the same shader with the defaults.
-fn preset(example: &Example, renderer: &Renderer, effort: Effort) -> Option<Row> {
+fn preset(example: &Example<'_>, renderer: &Renderer, effort: Effort) -> Option<Row> {
     let draw = |methods: Methods, row: &mut Row| {
         let scene = Scene { methods, ..example.scene.clone() };
         let baked = example.baked(&scene);
