@@ -39,6 +39,14 @@ pub enum Effort {
 }
 
 impl Effort {
+    /// What it means for who reads the figures.
+    pub fn words(self) -> &'static str {
+        match self {
+            Effort::Quick => "quick: few points and runs",
+            Effort::Full => "full",
+        }
+    }
+
     /// One of two numbers of points or runs.
     pub fn pick(self, quick: usize, full: usize) -> usize {
         match self {

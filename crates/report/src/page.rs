@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::comparison::{Budget, Comparison, Cost, Unit, comparisons};
 use crate::part::shaders;
 use crate::plot::{dark_rules, escaped, scatter};
-use crate::{Effort, PARTS, Report, Row, terms, words};
+use crate::{PARTS, Report, Row, terms, words};
 
 const STYLE: &str = include_str!("page/style.css");
 const SORT: &str = include_str!("page/sort.js");
@@ -36,10 +36,7 @@ fn terms_of(report: &Report) -> Vec<&str> {
 }
 
 fn head(report: &Report, comparisons: &[Comparison<'_>], page: &mut String) {
-    let effort = match report.effort {
-        Effort::Quick => "quick: few points and runs",
-        Effort::Full => "full",
-    };
+    let effort = report.effort.words();
     let dark = dark_rules();
     let _ = write!(
         page,

@@ -63,7 +63,7 @@ pub fn readme(report: &Report) -> String {
 fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
     let mut page = format!(
         "# Accuracy and speed\n\nWhat each approximation of Halfvector costs, and how wrong it is: errors against truth in double \
-         precision, times as medians of interleaved runs, to be read as ratios. Measured on {}, {}.\n\nThis page is made of \
+         precision, times as medians of interleaved runs, to be read as ratios. Measured on {}, {}, {}.\n\nThis page is made of \
          [`accuracy.json`](accuracy.json). To renew both:\n\n```sh\ncargo run --release -- report -o out/report\ncp \
          out/report/report.json docs/accuracy.json\nHALFVECTOR_BLESS=1 cargo test --workspace --test all -- accuracy\n```\n\n\
          `out/report/index.html` is the same with plots, inputs and where each error is largest.\n\n## What to choose\n\nThe \
@@ -72,6 +72,7 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
          | term | inputs | mobile | desktop | film |\n|---|---|---|---|---|\n",
         report.machine,
         report.date,
+        report.effort.words(),
         100.0 * Unit::Relative.limit(Budget::Mobile),
         Unit::Degrees.limit(Budget::Mobile),
         100.0 * Unit::Relative.limit(Budget::Desktop),
