@@ -130,6 +130,11 @@ pub(crate) fn run(args: &BakeArgs) -> Result<u8, Failure> {
             let cube = CubeLevels { slope: &baked.slope, ..CubeLevels::radiance(&levels, roughness) };
             files.push(file(&args.output, coded(args.output.format, cube, args.texels, &baked))?);
             let numbers: Vec<String> = roughness.iter().map(|r| format!("{r:.3}")).collect();
+            if args.texels == TexelFormat::Rgb9E5 && !baked.slope.is_empty() && args.output.format == CubeFormat::Ktx2 {
+                note(
+                    "note: rgb9e5 has no room for the slopes by which two levels are mixed; mixed linearly they err far more",
+                );
+            }
             said = format!("{} texels, {} levels for roughness {}", levels[0].size, levels.len(), numbers.join(" "));
         }
         if let Some(output) = &args.irradiance {
@@ -233,14 +238,14 @@ impl Plan {
         if args.output.format == CubeFormat::Hdre {
             return Plan::hdre(args, plain);
         }
+        let most = size.ilog2() as usize + 1;
         let asked = match (&args.roughness, args.levels, stored) {
             (Some(Roughness(list)), ..) => Some(list.clone()),
             // The file's own, when nothing else is asked for; with slopes they are those of a plain bake.
             (None, None, Some(_)) if has_slopes(loaded) => None,
-            (None, None, Some(stored)) => Some(stored.to_vec()),
+            (None, None, Some(stored)) if stored.len() <= most => Some(stored.to_vec()),
             (None, ..) => None,
         };
-        let most = size.ilog2() as usize + 1;
         let count = asked.as_ref().map_or(args.levels.unwrap_or(1) as usize, Vec::len);
         if count > most {
             return Err(Failure::usage(format!("{count} levels are more than faces of {size} texels have"))
@@ -249,7 +254,7 @@ impl Plan {
         }
         let faces = (0..most).map(|level| size >> level).collect();
         let Some(mut list) = asked else {
-            let own = stored.filter(|_| has_slopes(loaded)).map(<[f32]>::len);
+            let own = stored.filter(|_| has_slopes(loaded)).map(|stored| stored.len().min(most));
             let options = BakeOptions { levels: args.levels.map(|levels| levels as usize).or(own), ..plain };
             return Ok(Plan { options, faces, skipped: 0 });
         };

@@ -47,6 +47,14 @@ fn levels_irradiance_and_harmonics() {
     folder.run(&["bake", "grey.hdr", "-o", "again.ktx2", "--size", "32", "--backend", "cpu"]).ends(0);
     folder.run(&["bake", "again.ktx2", "-o", "kept.ktx2"]).ends(0);
     assert!(read("again.ktx2") == levels && read("kept.ktx2") == levels);
+    // Baked anew with fewer texels than its levels need, it gets as many as there is room for.
+    folder.run(&["bake", "again.ktx2", "-o", "small.ktx2", "--size", "4"]).ends(0);
+    assert_eq!(header(&read("small.ktx2")), [97, 2, 4, 4, 0, 0, 6, 3]);
+    folder
+        .run(&["bake", "grey.hdr", "-o", "nine.ktx2", "--size", "32", "--texels", "rgb9e5"])
+        .ends(0)
+        .says("rgb9e5 has no room for the slopes");
+    folder.run(&["bake", "nine.ktx2", "-o", "small.ktx2", "--size", "4"]).ends(0);
 }
 
 #[test]
