@@ -3,9 +3,11 @@
 //!
 //! `cargo bench -p halfvector-benches --bench prefilter_peers [-- FILE.hdr]`; without a file, the sky of this project.
 
-use halfvector_ibl::{BakeOptions, Equirect, LoadedEnvironment, Quality, Source, bake};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
+
+use halfvector_ibl::{BakeOptions, Equirect, LoadedEnvironment, Quality, bake};
+use halfvector_report::part::peers::write_hdr;
 
 /// Runs of each; the median counts.
 const RUNS: usize = 3;
@@ -21,8 +23,7 @@ fn main() {
         }
         None => {
             let sky = halfvector_ibl::sky();
-            let path = folder.path().join("sky.hdr");
-            write_hdr(&sky, &path);
+            let path = write_hdr(&sky, folder.path().to_owned()).expect("the temporary folder can be written");
             (sky, path)
         }
     };
@@ -82,18 +83,4 @@ fn cpu_seconds(children: bool) -> f64 {
     let ticks = |field: usize| fields[field - 3].parse::<f64>().expect("a number");
     let first = if children { 16 } else { 14 };
     (ticks(first) + ticks(first + 1)) / 100.0
-}
-
-/// The map as a Radiance file without compression.
-fn write_hdr(environment: &LoadedEnvironment, path: &Path) {
-    let Source::Equirect(map) = &environment.source else { unreachable!("the sky is a map") };
-    let mut bytes = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", map.height, map.width).into_bytes();
-    for &[r, g, b] in &map.pixels {
-        let most = r.max(g).max(b);
-        let exponent = if most > 1e-30 { most.log2().floor() as i32 + 1 } else { -127 };
-        let scale = (8.0 - exponent as f32).exp2();
-        bytes.extend([r, g, b].map(|x| (x * scale) as u8));
-        bytes.push((exponent + 128) as u8);
-    }
-    std::fs::write(path, bytes).expect("the temporary folder can be written");
 }

@@ -4,6 +4,7 @@
 //! lists and slices text. It does not parse WGSL (naga does, in the crates that need meaning).
 
 mod emit;
+pub mod function;
 pub mod slicer;
 mod token;
 

@@ -328,6 +328,31 @@ fn a_report_is_compared_with_an_older_one() {
     folder.run(&["report", "--only", "paint", "-o", "out"]).ends(2);
 }
 
+/// Killed in the middle of its second part: the first is there, whole.
+#[test]
+fn an_interrupted_report_keeps_what_it_has_measured() {
+    let folder = Folder::new();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_halfvector"))
+        .args(["report", "--quick", "--only", "mips", "--only", "ibl", "-o", "out"])
+        .current_dir(folder.0.path())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let page = folder.path("out/index.html");
+    let begun = std::time::Instant::now();
+    while !page.exists() && begun.elapsed().as_secs() < 300 {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    child.kill().expect("it was still measuring");
+    child.wait().expect("it ends");
+    let text = std::fs::read_to_string(folder.path("out/report.json")).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(report["parts"], serde_json::json!(["mips"]));
+    assert!(report["rows"].as_array().is_some_and(|rows| !rows.is_empty()), "{text}");
+    assert!(std::fs::read_to_string(page).expect("a page").ends_with("</html>\n"), "the page is whole");
+    assert!(!folder.path("out/ibl.csv").exists(), "the second part was not done");
+}
+
 #[test]
 fn render_writes_each_format_and_leaves_nothing_else() {
     let folder = Folder::new();

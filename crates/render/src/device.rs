@@ -6,8 +6,11 @@ use std::time::Duration;
 use crate::error::RenderError;
 
 /// What the device can do beyond WebGPU's core, as far as it is used here.
-const WANTED: wgpu::Features =
-    wgpu::Features::FLOAT32_BLENDABLE.union(wgpu::Features::FLOAT32_FILTERABLE).union(wgpu::Features::TIMESTAMP_QUERY);
+const WANTED: wgpu::Features = wgpu::Features::FLOAT32_BLENDABLE
+    .union(wgpu::Features::FLOAT32_FILTERABLE)
+    .union(wgpu::Features::TIMESTAMP_QUERY)
+    .union(wgpu::Features::SHADER_F64)
+    .union(wgpu::Features::SHADER_F16);
 
 /// How long a callback may take that is due.
 const CALL_BACK: Duration = Duration::from_secs(10);
@@ -132,8 +135,12 @@ impl Gpu {
         Ok(taken)
     }
 
-    /// Waits for submitted work and copies the f32 numbers of a buffer that can be copied from.
-    pub(crate) fn read_buffer(&self, buffer: &wgpu::Buffer, doing: &str) -> Result<Vec<f32>, RenderError> {
+    /// Waits for submitted work and copies the numbers of a buffer that can be copied from.
+    pub(crate) fn read_buffer<T: bytemuck::Pod>(
+        &self,
+        buffer: &wgpu::Buffer,
+        doing: &str,
+    ) -> Result<Vec<T>, RenderError> {
         let mapped = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("read-back"),
             size: buffer.size(),
@@ -143,7 +150,7 @@ impl Gpu {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &mapped, 0, buffer.size());
         self.queue.submit([encoder.finish()]);
-        self.read_mapped(&mapped, doing, bytemuck::pod_collect_to_vec::<u8, f32>)
+        self.read_mapped(&mapped, doing, bytemuck::pod_collect_to_vec::<u8, T>)
     }
 
     /// The format that radiance is drawn to: 32-bit floats, or 16-bit ones where 32-bit ones cannot be blended and blending

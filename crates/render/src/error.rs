@@ -127,6 +127,14 @@ pub enum RenderError {
         /// Its name.
         name: String,
     },
+    /// A function of the library cannot be called as it was asked for.
+    #[error("the function `{name}` cannot be called: {why}")]
+    Function {
+        /// Its name.
+        name: String,
+        /// Why not.
+        why: String,
+    },
     /// A material could not be turned into a shader.
     #[error("material `{material}`: {why}")]
     Shader {

@@ -9,6 +9,7 @@ mod cache;
 mod device;
 mod draws;
 mod error;
+pub mod function;
 mod kept;
 mod mesh;
 mod program;

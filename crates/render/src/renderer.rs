@@ -22,7 +22,7 @@ use crate::target::TILE_EDGE;
 /// Draws scenes on one GPU.
 #[derive(Debug)]
 pub struct Renderer {
-    gpu: Gpu,
+    pub(crate) gpu: Gpu,
 }
 
 /// How a picture is drawn.

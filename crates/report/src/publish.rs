@@ -128,12 +128,18 @@ fn precision(report: &Report, page: &mut String) {
     if rows.is_empty() {
         return;
     }
-    page.push_str(
-        "\n## Precision on hard cases\n\nCosines from 1e-6, roughness from 0.0001; on the CPU, f16 with each operation rounded. The \
-         error is in units in the last place of the format; `lost` counts results that are NaN or infinite although the \
-         format holds the right one.\n\n| form and format | rms [ulp] | largest [ulp] | lost | first lost |\n|---|---|---|---|---|\n",
+    let device = rows
+        .iter()
+        .find_map(|row| row.gpu.as_deref())
+        .map_or(String::new(), |name| format!(", and where the name says `device` by the WGSL on {}", cell(name)));
+    let _ = write!(
+        page,
+        "\n## Precision on hard cases\n\nCosines from 1e-6, roughness from 0.0001; on the CPU, f16 with each operation \
+         rounded{device}. The error is in units in the last place of the format; `lost` counts results that are NaN or infinite \
+         although the format holds the right one.\n\n| form and format | rms [ulp] | largest [ulp] | lost | first lost \
+         |\n|---|---|---|---|---|\n"
     );
-    for row in rows.iter().filter(|row| !row.method.ends_with("f64")) {
+    for row in rows.iter().filter(|row| !row.method.contains(" f64")) {
         let number = |x: Option<f64>| x.map_or(String::new(), words::number);
         let _ = writeln!(
             page,

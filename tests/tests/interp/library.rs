@@ -2,10 +2,11 @@
 //! Rust function are the same to 1e-12, in f32 they are as near as on a GPU.
 
 use halfvector_interp::{Column, Derivatives, Float, Limits, Outputs, Program, Resources};
+use halfvector_shaders::function::with_dependencies;
 use naga::ScalarKind;
 
 use super::{compile, valid};
-use crate::twins::gpu::{Gpu, Number, library, sliced};
+use crate::twins::gpu::{Gpu, Number, library};
 use crate::twins::table::{TWINS, Twin};
 use crate::twins::{arguments, distance, ulp};
 
@@ -63,7 +64,7 @@ fn rust(twin: &Twin, inputs: &[f32], width: usize, row: usize) -> Vec<f64> {
 fn compare(prelude: &str, allowed: fn(&Twin) -> f64, unit: fn(f64) -> f64) {
     let mut failures = Vec::new();
     for twin in TWINS {
-        let source = format!("{prelude}{}", sliced(twin.name, prelude));
+        let source = format!("{prelude}{}", with_dependencies(twin.name, prelude));
         // Some built-ins exist in f32 only.
         if !prelude.is_empty() && !twin.f64 && valid(&source).is_err() {
             println!("{}: no f64", twin.name);
@@ -101,7 +102,7 @@ fn library_functions_are_those_of_the_gpu() {
     for twin in TWINS {
         let inputs = arguments(twin);
         let device = gpu.call::<f32>(&module, twin.name, &inputs);
-        let found = call::<f32>(&compile(&sliced(twin.name, ""), twin.name), &inputs);
+        let found = call::<f32>(&compile(&with_dependencies(twin.name, ""), twin.name), &inputs);
         let rows = |row: usize| device.values[row * device.results..][..device.results].to_vec();
         let (error, at) = worst(twin, &found, ulp, rows);
         println!("{}: {error:.2} ulp apart", twin.name);

@@ -13,7 +13,8 @@ mod truth;
 use std::collections::BTreeSet;
 
 use domain::Numbers;
-use gpu::{Gpu, Number, library, library_files};
+use gpu::{Gpu, Number, library};
+use halfvector_shaders::function::library_files;
 use signatures::{rust_functions, rust_twin, wgsl_functions};
 use table::{RUST_ONLY, TWINS, Twin, WGSL_ONLY};
 

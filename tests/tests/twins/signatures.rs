@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use halfvector_shaders::function::library_files;
 use naga::{Module, TypeInner};
 use syn::visit::Visit;
 
-use super::gpu::library_files;
 use crate::support::root;
 
 /// A function's name and arguments (name, type); types are written as WGSL writes them.

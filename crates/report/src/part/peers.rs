@@ -8,17 +8,57 @@ use halfvector_brdf::batch::kernels::SpecularEval;
 use halfvector_brdf::batch::{Kernel, Simd};
 use halfvector_ibl::{BakeOptions, LoadedEnvironment, Source, bake, sky};
 
+use super::shaders::default_surface;
 use crate::timing::{measured, median};
 use crate::{Effort, Row};
 
 /// Mitsuba 3's rates on one core, where the project lies.
 const MITSUBA: &str = "benches/peers/mitsuba_brdf.py";
 
+/// MaterialX's shader, counted.
+const MATERIAL_X: &str = "benches/peers/materialx_shader.py";
+
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
     let mut rows = lobes(effort);
     rows.extend(bakes(effort));
+    rows.extend(shaders(effort));
     rows
+}
+
+/// MaterialX's generator and ours at a surface that nobody has touched: instructions of the fragment stage.
+fn shaders(effort: Effort) -> [Row; 2] {
+    const WORK: &str = "the fragment stage of a surface with its default values under one light and a prefiltered environment, after \
+                        spirv-opt -O";
+    let measured = (effort == Effort::Full).then(material_x).flatten();
+    let when = match measured {
+        Some(_) => "measured in this run",
+        None => "recorded on 2026-11-23",
+    };
+    let (theirs, milliseconds, ours) = measured.unwrap_or((4045, 13.3, 208));
+    let row = |method: &str, what: &str, instructions: u64| {
+        let mut row = Row::new("peer", method, &format!("{WORK}; {what}; {when}"));
+        row.instructions = Some(instructions);
+        row
+    };
+    let mut other = row("MaterialX 1.39", "its standard surface, values as uniforms", theirs);
+    other.cost_ns = Some(milliseconds * 1e6);
+    [row("our shader", "what the values do not need is left out", ours), other]
+}
+
+/// Instructions of MaterialX's shader, the milliseconds of its generator, instructions of ours; none where MaterialX, its
+/// script or the tools that it calls are not there.
+fn material_x() -> Option<(u64, f64, u64)> {
+    let folder = std::env::temp_dir().join(format!("halfvector-report-shader-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).ok()?;
+    let path = folder.join("ours.spv");
+    std::fs::write(&path, default_surface()?).ok()?;
+    let output = Command::new("python3").arg(MATERIAL_X).arg(&path).stderr(Stdio::null()).output();
+    // What is left of a temporary folder does no harm.
+    let _ = std::fs::remove_dir_all(&folder);
+    let text = String::from_utf8(output.ok()?.stdout).ok()?;
+    let mut numbers = text.split_whitespace();
+    Some((numbers.next()?.parse().ok()?, numbers.next()?.parse().ok()?, numbers.next()?.parse().ok()?))
 }
 
 /// One evaluation of a metal's lobe among many, on one core.
@@ -132,8 +172,9 @@ fn processor_seconds(children: bool) -> Option<f64> {
     Some((ticks(first)? + ticks(first + 1)?) / 100.0)
 }
 
-/// The map as a Radiance file without compression.
-fn write_hdr(environment: &LoadedEnvironment, folder: PathBuf) -> Option<PathBuf> {
+/// An equirectangular map as `sky.hdr` in a folder, a Radiance file without compression; none for other sources, and where
+/// the folder cannot be written.
+pub fn write_hdr(environment: &LoadedEnvironment, folder: PathBuf) -> Option<PathBuf> {
     let Source::Equirect(map) = &environment.source else { return None };
     let mut bytes = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", map.height, map.width).into_bytes();
     for &[r, g, b] in &map.pixels {

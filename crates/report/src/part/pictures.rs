@@ -32,8 +32,8 @@ const SAMPLES: u32 = 4;
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
     let renderer = Renderer::new().ok();
-    let bakes = Bakes::default();
-    examples().iter().flat_map(|path| example(path, renderer.as_ref(), &bakes, effort).unwrap_or_default()).collect()
+    let kept = Kept::default();
+    examples().iter().flat_map(|path| example(path, renderer.as_ref(), &kept, effort).unwrap_or_default()).collect()
 }
 
 /// The documents of the folder itself, in order of name; those of folders within it are for other ends.
@@ -61,13 +61,19 @@ fn radiance(picture: &Picture) -> Vec<[f64; 3]> {
     picture.pixels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect()
 }
 
-/// Environments that are baked already, by what they are and how: most examples are lit by the same one.
-type Bakes = RefCell<HashMap<String, Arc<BakedEnvironment>>>;
+/// What one example has in common with the next, and one picture of it with another.
+#[derive(Default)]
+struct Kept {
+    /// Environments that are baked already, by what they are and how: most examples are lit by the same one.
+    bakes: RefCell<HashMap<String, Arc<BakedEnvironment>>>,
+    /// Programs and textures on the device.
+    cache: RefCell<Cache>,
+}
 
 /// An example's scene with what it is lit by.
-struct Example<'b> {
+struct Example<'k> {
     scene: Scene,
-    bakes: &'b Bakes,
+    kept: &'k Kept,
     loaded: Option<LoadedEnvironment>,
     name: String,
     size: u32,
@@ -77,7 +83,7 @@ impl Example<'_> {
     fn baked(&self, scene: &Scene) -> Option<Arc<BakedEnvironment>> {
         let loaded = self.loaded.as_ref()?;
         let options = bake_options(&scene.environment, &scene.methods, loaded);
-        let mut bakes = self.bakes.borrow_mut();
+        let mut bakes = self.kept.bakes.borrow_mut();
         let key = format!("{:?}, {options:?}", scene.environment);
         Some(bakes.entry(key).or_insert_with(|| Arc::new(bake(loaded, &options))).clone())
     }
@@ -89,9 +95,40 @@ impl Example<'_> {
         );
         Row::new("picture", method, &domain)
     }
+
+    /// Draws on the device and puts time and instructions into the row: the median of several pictures without what is made
+    /// only once.
+    fn on_device(
+        &self,
+        renderer: &Renderer,
+        scene: &Scene,
+        (fold, effort): (Fold, Effort),
+        row: &mut Row,
+    ) -> Option<Picture> {
+        let size = self.size;
+        let options =
+            RenderOptions { width: size, height: size, samples_per_side: SAMPLES, fold, ..RenderOptions::default() };
+        let baked = self.baked(scene);
+        let mut cache = self.kept.cache.borrow_mut();
+        let mut draw = || renderer.render_timed(&mut cache, scene, baked.as_ref(), &options).ok();
+        let (picture, _) = draw()?;
+        let (mut seconds, mut device): (Vec<f64>, Option<f64>) = (Vec::new(), None);
+        for _ in 0..effort.pick(3, 9) {
+            let start = Instant::now();
+            let (_, time) = draw()?;
+            seconds.push(start.elapsed().as_secs_f64());
+            device = time.map(|time| device.map_or(time, |known| known.min(time)));
+        }
+        let samples = f64::from(size * size * SAMPLES * SAMPLES);
+        row.cost_ns = Some(median(seconds) * 1e9);
+        row.gpu_ns = device.map(|time| time * 1e9 / samples);
+        row.gpu = Some(renderer.adapter().to_owned());
+        row.instructions = fragment_instructions(scene, fold);
+        Some(picture)
+    }
 }
 
-fn example(path: &Path, renderer: Option<&Renderer>, bakes: &Bakes, effort: Effort) -> Option<Vec<Row>> {
+fn example(path: &Path, renderer: Option<&Renderer>, kept: &Kept, effort: Effort) -> Option<Vec<Row>> {
     let mut scene = load(path)?;
     // What the reference has no truth for.
     for term in ["encode", "env_decode"] {
@@ -100,7 +137,7 @@ fn example(path: &Path, renderer: Option<&Renderer>, bakes: &Bakes, effort: Effo
     }
     let loaded = scene.environment.load().ok()?;
     let name = path.file_name()?.to_str()?.trim_end_matches(".json").to_owned();
-    let example = Example { scene, bakes, loaded, name, size: effort.pick(32, 128) as u32 };
+    let example = Example { scene, kept, loaded, name, size: effort.pick(32, 128) as u32 };
     let Example { scene, size, .. } = &example;
     let baked = example.baked(scene);
 
@@ -116,7 +153,7 @@ fn example(path: &Path, renderer: Option<&Renderer>, bakes: &Bakes, effort: Effo
     if let Some(renderer) = renderer {
         for (method, fold) in [("gpu", Fold::Export), ("gpu, unspecialised", Fold::Live)] {
             let mut row = example.row(method, against);
-            let picture = on_device(renderer, scene, baked.as_ref(), *size, fold, effort, &mut row);
+            let picture = example.on_device(renderer, scene, (fold, effort), &mut row);
             let Some(picture) = picture else { continue };
             errors(&mut row, &picture);
             rows.push(row);
@@ -141,8 +178,7 @@ fn example(path: &Path, renderer: Option<&Renderer>, bakes: &Bakes, effort: Effo
 fn preset(example: &Example<'_>, renderer: &Renderer, effort: Effort) -> Option<Row> {
     let draw = |methods: Methods, row: &mut Row| {
         let scene = Scene { methods, ..example.scene.clone() };
-        let baked = example.baked(&scene);
-        on_device(renderer, &scene, baked.as_ref(), example.size, Fold::Export, effort, row)
+        example.on_device(renderer, &scene, (Fold::Export, effort), row)
     };
     let mut report = Methods::report();
     for term in ["encode", "env_decode"] {
@@ -166,35 +202,6 @@ fn fill(row: &mut Row, test: &[[f64; 3]], truth: &[[f64; 3]], noise: Option<&[[f
     row.at = at.map(|i| format!("column {}, row {}", i % width.max(1), i / width.max(1)));
     let flip = flip_hdr(truth, test, width, FlipOptions::default());
     row.flip = Some(flip.iter().sum::<f64>() / flip.len().max(1) as f64);
-}
-
-/// Draws on the device and puts time and instructions into the row: the median of several pictures without what is made only once.
-fn on_device(
-    renderer: &Renderer,
-    scene: &Scene,
-    baked: Option<&Arc<BakedEnvironment>>,
-    size: u32,
-    fold: Fold,
-    effort: Effort,
-    row: &mut Row,
-) -> Option<Picture> {
-    let options =
-        RenderOptions { width: size, height: size, samples_per_side: SAMPLES, fold, ..RenderOptions::default() };
-    let mut cache = Cache::default();
-    let (picture, _) = renderer.render_timed(&mut cache, scene, baked, &options).ok()?;
-    let (mut seconds, mut device): (Vec<f64>, Option<f64>) = (Vec::new(), None);
-    for _ in 0..effort.pick(3, 9) {
-        let start = Instant::now();
-        let (_, time) = renderer.render_timed(&mut cache, scene, baked, &options).ok()?;
-        seconds.push(start.elapsed().as_secs_f64());
-        device = time.map(|time| device.map_or(time, |known| known.min(time)));
-    }
-    let samples = f64::from(size * size * SAMPLES * SAMPLES);
-    row.cost_ns = Some(median(seconds) * 1e9);
-    row.gpu_ns = device.map(|time| time * 1e9 / samples);
-    row.gpu = Some(renderer.adapter().to_owned());
-    row.instructions = fragment_instructions(scene, fold);
-    Some(picture)
 }
 
 /// Instructions of the longest of a scene's fragment stages.

@@ -33,12 +33,13 @@ const BAKED: [&str; 2] = ["prefilter", "env_decode"];
 pub fn rows(effort: Effort) -> Vec<Row> {
     // Without a device its columns stay empty.
     let renderer = Renderer::new().ok();
+    let mut cache = Cache::default();
     let mut rows = Vec::new();
     for (term, scenes) in terms() {
         let first = rows.len();
         rows.extend(scenes.iter().map(|scene| counted_row(term, scene)));
         let Some(renderer) = &renderer else { continue };
-        for (row, time) in rows[first..].iter_mut().zip(device_times(renderer, &scenes, effort)) {
+        for (row, time) in rows[first..].iter_mut().zip(device_times(renderer, &mut cache, &scenes, effort)) {
             row.gpu_ns = time.map(|seconds| seconds * 1e9 / f64::from(SIDE * SIDE));
             row.gpu = time.map(|_| renderer.adapter().to_owned());
         }
@@ -143,11 +144,24 @@ fn shader(scene: &Scene) -> Option<Shader> {
     halfvector_codegen::shader(&scene.materials[0].document, Library::standard(), &needs, Fold::Live).ok()
 }
 
+/// The SPIR-V of the fragment stage of a surface with its default values, as it is exported.
+pub(super) fn default_surface() -> Option<Vec<u8>> {
+    let scene = scene(Document::with_surface("default"))?;
+    let needs = needs(&scene, ShaderOutput::Radiance);
+    let shader = halfvector_codegen::shader(&scene.materials[0].document, Library::standard(), &needs, Fold::Export);
+    fragment(&shader.ok()?)
+}
+
+/// A shader's fragment stage in SPIR-V.
+fn fragment(shader: &Shader) -> Option<Vec<u8>> {
+    let files = export(shader, target("spirv")?, "m").ok()?;
+    files.into_iter().find(|file| file.name == "m.frag.spv").map(|file| file.bytes)
+}
+
 /// Instructions of a shader's fragment stage in SPIR-V as naga writes it: those of the entry point's body, with those of each
 /// called function in the place of the call.
 pub(super) fn instructions(shader: &Shader) -> Option<u64> {
-    let files = export(shader, target("spirv")?, "m").ok()?;
-    let bytes = &files.iter().find(|file| file.name == "m.frag.spv")?.bytes;
+    let bytes = fragment(shader)?;
     let words: Vec<u32> = bytes.as_chunks::<4>().0.iter().map(|&word| u32::from_le_bytes(word)).collect();
     counted(&words)
 }
@@ -192,7 +206,7 @@ fn counted(words: &[u32]) -> Option<u64> {
 
 /// The device's time of each scene's pass [s], in turns; none for what it refuses, and for all when it has no clock. The
 /// shortest of the turns: a software device shares its cores with whatever else the machine does, which only ever adds.
-fn device_times(renderer: &Renderer, scenes: &[Scene], effort: Effort) -> Vec<Option<f64>> {
+fn device_times(renderer: &Renderer, cache: &mut Cache, scenes: &[Scene], effort: Effort) -> Vec<Option<f64>> {
     let environment = studio();
     let mut baked: Vec<(BakeOptions, Arc<BakedEnvironment>)> = Vec::new();
     let mut light = |scene: &Scene| {
@@ -206,12 +220,11 @@ fn device_times(renderer: &Renderer, scenes: &[Scene], effort: Effort) -> Vec<Op
         light
     };
     let lights: Vec<Arc<BakedEnvironment>> = scenes.iter().map(&mut light).collect();
-    let mut cache = Cache::default();
     let options = RenderOptions { width: SIDE, height: SIDE, samples_per_side: 1, ..RenderOptions::default() };
     let mut shortest: Vec<Option<f64>> = vec![None; scenes.len()];
     for round in 0..=effort.pick(7, 31) {
         for ((scene, light), shortest) in scenes.iter().zip(&lights).zip(&mut shortest) {
-            let drawn = renderer.render_timed(&mut cache, scene, Some(light), &options);
+            let drawn = renderer.render_timed(cache, scene, Some(light), &options);
             if let Ok((_, Some(time))) = drawn
                 && round > 0
             {
