@@ -155,15 +155,20 @@ struct Form {
     double: fn(&[f64]) -> f64,
     single: fn(&[f32]) -> f32,
     half: fn(&[Half]) -> Half,
+    /// How many of the WGSL function's numbers are added to give the form's.
+    parts: usize,
 }
 
 macro_rules! form {
-    ($name:ident, $inputs:ident, $a:ident => $value:expr) => {{
+    ($name:ident, $inputs:ident, $a:ident => $value:expr) => {
+        form!($name, 1, $inputs, $a => $value)
+    };
+    ($name:ident, $parts:literal, $inputs:ident, $a:ident => $value:expr) => {{
         fn value<R: Real>($a: &[R]) -> R {
             $value
         }
         let name = stringify!($name);
-        Form { name, inputs: $inputs, double: value::<f64>, single: value::<f32>, half: value::<Half> }
+        Form { name, inputs: $inputs, double: value::<f64>, single: value::<f32>, half: value::<Half>, parts: $parts }
     }};
 }
 
@@ -261,7 +266,7 @@ fn forms() -> Vec<Form> {
         form!(f_conductor, metals, a => f_conductor(a[0], a[1], a[2])),
         form!(diffuse_burley, lit_directions, a => diffuse_burley(rgb(a, 0), a[3], a[4], a[5], a[6])[0]),
         form!(diffuse_eon, lit_directions, a => diffuse_eon(rgb(a, 0), a[3], a[4], a[5], a[6])[0]),
-        form!(dfg_fit, lobes, a => dfg_fit(a[0], a[1])[0]),
+        form!(dfg_fit, 2, lobes, a => { let [f0, f90] = dfg_fit(a[0], a[1]); f0 + f90 }),
         form!(energy_compensation, albedos, a => energy_compensation(rgb(a, 0), rgb(a, 3), [a[6], a[7]])[0]),
         form!(energy_compensation_fdez_aguera, albedos, a =>
             energy_compensation_fdez_aguera(rgb(a, 0), rgb(a, 3), [a[6], a[7]])[0]),
@@ -299,7 +304,8 @@ fn on_device(form: &Form, renderer: &Renderer, library: &naga::Module) -> Vec<Ro
         inputs.extend(inputs.last().cloned());
         inputs.truncate(inputs.len() / 2 * 2);
         let results = renderer.call::<N>(library, form.name, &inputs.concat()).ok()?;
-        let found: Vec<f64> = results.values.chunks_exact(results.results).map(|value| value[0]).collect();
+        let found: Vec<f64> =
+            results.values.chunks_exact(results.results).map(|value| value[..form.parts].iter().sum()).collect();
         let stored = |input: &Vec<f32>| input.iter().map(|&x| N::from_f32(x).to_f64()).collect();
         let wide: Vec<Vec<f64>> = inputs.iter().map(stored).collect();
         let name = format!("{} device", F::NAME);
