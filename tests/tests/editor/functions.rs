@@ -9,6 +9,7 @@ use halfvector_graph::file::to_json;
 
 use egui::accesskit::Role;
 
+use super::hands::write_into;
 use super::{open, settle};
 
 type Window = Harness<'static, Editor>;
@@ -93,16 +94,9 @@ fn a_function_is_renamed_in_use_and_removed_when_nothing_uses_it() {
     let mut window = with_function();
     let before = to_json(document(&window));
     let write_name = |window: &mut Window, from: &str, to: &str| {
-        let field = window.get_by_role_and_label(Role::TextInput, "Name of the function");
-        assert_eq!(field.value().as_deref(), Some(from));
-        field.focus();
-        window.run_steps(2);
-        window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-        window.step();
-        window.event(egui::Event::Text(to.to_owned()));
-        window.step();
-        window.key_press(egui::Key::Enter);
-        window.run_steps(3);
+        let label = "Name of the function";
+        assert_eq!(window.get_by_role_and_label(Role::TextInput, label).value().as_deref(), Some(from));
+        write_into(window, label, to);
     };
     write_name(&mut window, "new_function", "Two words");
     assert!(window.query_by_label_contains("is no name of a function").is_some());

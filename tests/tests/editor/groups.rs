@@ -12,6 +12,7 @@ use halfvector_graph::value::Value;
 
 use egui::accesskit::Role;
 
+use super::hands::write_into;
 use super::{open, settle};
 
 type Window = Harness<'static, Editor>;
@@ -42,18 +43,6 @@ fn names(window: &Window) -> [Vec<String>; 2] {
     [inputs, interface.outputs.iter().map(|output| output.name.clone()).collect()]
 }
 
-fn write_name(window: &mut Window, socket: &str, to: &str) {
-    let label = format!("Name of {socket}");
-    window.get_by_role_and_label(Role::TextInput, &label).focus();
-    window.run_steps(2);
-    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    window.step();
-    window.event(egui::Event::Text(to.to_owned()));
-    window.step();
-    window.key_press(egui::Key::Enter);
-    window.run_steps(3);
-}
-
 #[test]
 fn sockets_are_renamed_added_moved_and_removed_with_all_uses() {
     let mut window = inside();
@@ -64,8 +53,8 @@ fn sockets_are_renamed_added_moved_and_removed_with_all_uses() {
     let exposed = document(&window).parameter("enamel_color").unwrap().socket.clone();
     assert_eq!(exposed.node, node);
 
-    write_name(&mut window, &format!("input {}", exposed.socket), "enamel");
-    write_name(&mut window, &format!("output {}", outputs[0]), "paint");
+    write_into(&mut window, &format!("Name of input {}", exposed.socket), "enamel");
+    write_into(&mut window, &format!("Name of output {}", outputs[0]), "paint");
     assert!(names(&window)[0].contains(&"enamel".to_owned()));
     assert_eq!(names(&window)[1], ["paint"]);
     assert_eq!(document(&window).parameter("enamel_color").unwrap().socket, SocketRef::new(&node, "enamel"));
@@ -81,7 +70,7 @@ fn sockets_are_renamed_added_moved_and_removed_with_all_uses() {
     window.run_steps(3);
     assert_eq!(names(&window)[0][inputs.len() - 1], added);
     // A name that is taken is refused.
-    write_name(&mut window, &format!("input {added}"), "enamel");
+    write_into(&mut window, &format!("Name of input {added}"), "enamel");
     assert!(names(&window)[0].contains(&added));
     window.get_by_role_and_label(Role::Button, "Remove input enamel").click();
     window.run_steps(3);

@@ -6,6 +6,8 @@ use halfvector_editor::{Action, Editor, egui};
 use halfvector_graph::document::{Document, SocketRef};
 use halfvector_graph::file::to_json;
 
+use egui::accesskit::Role;
+
 pub(super) type Window = Harness<'static, Editor>;
 
 pub(super) fn document(window: &Window) -> &Document {
@@ -62,6 +64,18 @@ pub(super) fn write(window: &mut Window, words: &str) {
     window.event(egui::Event::Text(words.to_owned()));
     window.step();
     window.step();
+}
+
+/// Writes a text in the place of what stands in a field, and leaves the field.
+pub(super) fn write_into(window: &mut Harness<'_, Editor>, label: &str, text: &str) {
+    window.get_by_role_and_label(Role::TextInput, label).focus();
+    window.run_steps(2);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    window.step();
+    window.event(egui::Event::Text(text.to_owned()));
+    window.run_steps(2);
+    window.key_press(egui::Key::Enter);
+    window.run_steps(3);
 }
 
 /// Adds a node with the keys alone, the pointer at a place.

@@ -9,6 +9,7 @@ use halfvector_graph::value::Value;
 
 use egui::accesskit::Role;
 
+use super::hands::write_into;
 use super::{open, settle};
 
 fn window(selected: &str) -> Harness<'static, Editor> {
@@ -36,17 +37,6 @@ fn press(harness: &mut Harness<'_, Editor>, key: egui::Key, times: usize) {
         harness.key_press(key);
         harness.step();
     }
-}
-
-fn write_into(harness: &mut Harness<'_, Editor>, label: &str, text: &str) {
-    harness.get_by_role_and_label(Role::TextInput, label).focus();
-    harness.step();
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    harness.step();
-    harness.get_by_role_and_label(Role::TextInput, label).type_text(text);
-    harness.run_steps(2);
-    harness.key_press(egui::Key::Enter);
-    harness.run_steps(2);
 }
 
 #[test]
@@ -164,6 +154,54 @@ fn a_metal_becomes_another_one() {
     assert_eq!(document(&harness).graph.nodes["metal"].node, "optics/copper");
     assert!(document(&harness).graph.links.contains(&link));
     assert!(harness.query_by_label("No problems").is_some() || !harness.state().session().problems().is_empty());
+}
+
+#[test]
+fn a_conductor_takes_the_constants_of_a_metal() {
+    let mut harness = window("surface");
+    let node = halfvector_graph::document::Node::new("optics/gold");
+    harness.state_mut().act(Action::edit("Add", Edit::AddNode { id: "metal".into(), node }));
+    select(&mut harness, "metal");
+    let choose = |harness: &mut Harness<'_, Editor>, choice: &str, entry: &str| {
+        harness.get_by_role_and_label(Role::ComboBox, choice).click();
+        harness.run_steps(3);
+        harness.get_all_by_label(entry).last().unwrap().click();
+        harness.run_steps(3);
+    };
+    choose(&mut harness, "Metal", "By optical constants");
+    assert_eq!(document(&harness).graph.nodes["metal"].node, "optics/conductor");
+    // Gold at 650 nm: it begins as what it was.
+    let eta = |harness: &Harness<'_, Editor>| match value(harness, "metal", "eta") {
+        Some(Value::Vec3([red, ..])) => red,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(eta(&harness), 0.156);
+    choose(&mut harness, "Eta and k of", "Copper");
+    assert_eq!(eta(&harness), 0.238);
+    assert!(matches!(value(&harness, "metal", "k"), Some(Value::Vec3([red, ..])) if red == 3.626));
+    harness.state_mut().act(Action::Undo);
+    assert_eq!(eta(&harness), 0.156);
+}
+
+/// A node of any type shows a swatch where it works on colours, and numbers elsewhere.
+#[test]
+fn what_is_wired_to_a_colour_has_swatches() {
+    let mut harness = window("surface");
+    let node = halfvector_graph::document::Node::new("math/add");
+    harness.state_mut().act(Action::edit("Add", Edit::AddNode { id: "sum".into(), node }));
+    select(&mut harness, "sum");
+    let swatches = |harness: &Harness<'_, Editor>| harness.query_all_by_role(Role::ColorWell).count();
+    assert_eq!(swatches(&harness), 0);
+    let to = SocketRef::new("surface", "base_color");
+    let old: Vec<_> = document(&harness).graph.links.iter().filter(|link| link.to == to).cloned().collect();
+    let mut edits: Vec<Edit> = old.into_iter().map(|link| Edit::RemoveLink { link }).collect();
+    let link = halfvector_graph::document::Link::new(SocketRef::new("sum", "out"), to);
+    let value = Some(Value::Vec3([0.2, 0.3, 0.4]));
+    edits.push(Edit::SetValue { socket: SocketRef::new("sum", "a"), value });
+    edits.push(Edit::AddLink { link });
+    harness.state_mut().act(Action::edit("Link", Edit::Many(edits)));
+    harness.run_steps(3);
+    assert!(swatches(&harness) > 0, "{:?}", document(&harness).graph.nodes["sum"]);
 }
 
 #[test]

@@ -40,16 +40,6 @@ fn choose(window: &mut Window, button: &str) {
     settle(window);
 }
 
-/// Writes a number or a name into a field of the inspector.
-fn write_into(window: &mut Window, label: &str, words: &str) {
-    window.get_by_role_and_label(Role::TextInput, label).focus();
-    window.step();
-    key(window, egui::Modifiers::COMMAND, egui::Key::A);
-    window.get_by_role_and_label(Role::TextInput, label).type_text(words);
-    window.run_steps(2);
-    key(window, egui::Modifiers::NONE, egui::Key::Enter);
-}
-
 /// Adds a node at a place of the canvas, in its shares, and gives back its id.
 fn place(window: &mut Window, at: [f32; 2], words: &str) -> String {
     let canvas = window.get_by_label("Graph canvas").rect();

@@ -7,6 +7,7 @@ use eframe::egui;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use halfvector_editor::{Editor, Options};
+use halfvector_graph::needs::ToneMap;
 use halfvector_scene::{EnvironmentSource, MeshSource};
 
 use super::settle;
@@ -133,6 +134,39 @@ fn environments_and_models_come_by_drop_and_bad_ones_change_nothing() {
     assert_eq!(harness.state().stage().mesh, MeshSource::File(triangle));
     // It stands far off and is brought into view.
     assert!(harness.state().stage().orbit.target.x > 90.0, "{:?}", harness.state().stage().orbit);
+}
+
+/// A bake that is given up leaves what is there.
+#[test]
+fn a_bake_is_cancelled() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open(Options::default());
+    let before = harness.state().stage().environment.clone();
+    let sky = folder.path().join("large.hdr");
+    let head = b"#?RADIANCE\n\n-Y 1024 +X 2048\n".as_slice();
+    let pixels: Vec<u8> = (0..2048 * 1024_u32).flat_map(|i| [(i % 251) as u8, 100, 120, 128]).collect();
+    std::fs::write(&sky, [head, &pixels].concat()).expect("written");
+    harness.input_mut().dropped_files.push(Arc::new(Dropped(sky.clone())));
+    harness.run_steps(3);
+    assert_eq!(harness.state().stage().environment, EnvironmentSource::File(sky));
+    harness.get_by_label_contains("Preparing the environment");
+    click(&mut harness, "Cancel");
+    assert_eq!(harness.state().stage().environment, before);
+    settle(&mut harness);
+    assert_eq!(harness.state().stage().environment, before);
+    assert!(harness.query_by_label_contains("Preparing the environment").is_none());
+}
+
+/// Tools that have no room are in the menu at the end of the row, and work there.
+#[test]
+fn a_narrow_window_keeps_its_tools_in_a_menu() {
+    let mut harness = open_sized([700.0, 620.0], Options::default());
+    assert!(harness.query_by_label("Turntable").is_none(), "there is room for all");
+    click(&mut harness, "More tools");
+    harness.get_by_label("Turntable");
+    click(&mut harness, "Display");
+    click(&mut harness, "Reinhard");
+    assert_eq!(harness.state().stage().tone_map, ToneMap::Reinhard);
 }
 
 /// A triangle at x = 100: three positions of 32-bit floats as a data URI.
