@@ -164,7 +164,9 @@ fn a_narrow_window_keeps_its_tools_in_a_menu() {
     assert!(harness.query_by_label("Turntable").is_none(), "there is room for all");
     click(&mut harness, "More tools");
     harness.get_by_label("Turntable");
-    click(&mut harness, "Display");
+    // The name of a menu in a menu ends in an arrow.
+    harness.get_all_by_label_contains("Display").last().expect("it has no room in the row").click();
+    harness.run_steps(3);
     click(&mut harness, "Reinhard");
     assert_eq!(harness.state().stage().tone_map, ToneMap::Reinhard);
 }
