@@ -478,5 +478,14 @@ fn what_f32_gets_wrong_is_found_and_named() {
     let run = folder.run(&["check", "--stability", "--format", "json", "wrong.material.json"]).ends(3);
     let json = run.json();
     assert_eq!(json["unstable"][0]["node"], "culprit");
-    assert!(json["edges"].is_array() && json["problems"].is_array());
+    assert!(json["edges"].is_array() && json["problems"].is_array() && json["f16"].is_null());
+    let run = folder.run(&["check", "--stability", "--f16", "--format", "json", "wrong.material.json"]).ends(3);
+    let json = run.json();
+    // A million is too large for f16: it goes wrong a node earlier. JSON has no infinity.
+    let half = &json["f16"]["unstable"][0];
+    assert!(half["node"] == "far" && half["f16"].is_null() && half["not_finite"].as_u64() > Some(0), "{json}");
+    assert!(json["f16"]["edges"].is_array());
+    let run = folder.run(&["check", "--stability", "--f16", "wrong.material.json"]).ends(3);
+    assert!(run.stdout.contains("f32 gives") && run.stdout.contains("f16 gives"), "{}", run.stdout);
+    folder.run(&["check", "--f16", "wrong.material.json"]).ends(2);
 }

@@ -69,6 +69,8 @@ pub(crate) enum Op {
     /// Difference to the neighbour to the right (x) or below (y).
     Derivative {
         vertical: bool,
+        /// The same for the whole block of two by two: of its first row, or of its first column.
+        coarse: bool,
     },
     /// Samples, loads or measures a texture.
     Texture(u32),

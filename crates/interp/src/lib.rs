@@ -24,7 +24,7 @@
 //! ```
 //!
 //! It does not do: atomics, barriers and workgroup memory, writes to buffers and textures, integer, depth, storage,
-//! multisampled and external textures, f16 and 64-bit integers, ray queries, subgroup operations, override constants
+//! multisampled and external textures, the types f16, i64 and u64, ray queries, subgroup operations, override constants
 //! whose value is not set. Programs that use them are refused by name when they are compiled.
 
 mod allocate;
@@ -32,6 +32,7 @@ mod code;
 mod elementary;
 mod emit;
 mod error;
+mod half;
 mod ir;
 mod kernel;
 mod lower;
@@ -45,9 +46,10 @@ mod texture;
 mod uniform;
 
 pub use error::{Place, RunError, Unsupported};
+pub use half::Half;
 pub use kernel::LANES;
 pub use machine::Machine;
 pub use program::{Entry, Program, Slot};
 pub use real::Float;
 pub use resource::{Column, Derivatives, Limits, OutputColumn, Outputs, Resources};
-pub use texture::{Address, Filter, Level, Sampler, Shape, Texture, TextureError};
+pub use texture::{Address, Filter, Level, LevelRule, Sampler, Shape, Texture, TextureError};

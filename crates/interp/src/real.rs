@@ -6,7 +6,7 @@ use std::fmt::Debug;
 
 use crate::elementary;
 
-/// A floating-point number that the interpreter computes in: `f32` or `f64`.
+/// A floating-point number that the interpreter computes in: `f32`, `f64` or [`Half`](crate::Half).
 pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static + sealed::Arithmetic {
     /// Rounds to f32 where this is f64's narrower brother.
     fn from_f64(x: f64) -> Self;
@@ -16,7 +16,7 @@ pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static + s
     fn to_f32(self) -> f32;
 }
 
-/// What the kernels need; the trait is sealed, for the semantics of WGSL are stated for these two types alone.
+/// What the kernels need; the trait is sealed, for the semantics of WGSL are stated for these types alone.
 pub(crate) mod sealed {
     use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -202,6 +202,31 @@ pub enum Filter {
     Linear,
 }
 
+/// How the level is found from the length l, in texels, that a pixel covers. WGSL leaves this to the device.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LevelRule {
+    /// log2 l.
+    #[default]
+    Exact,
+    /// Half of the chords of log2 over l^2 between powers of two: `e + m - 1` for l^2 = m 2^e, 1 <= m < 2. Below log2 l by up
+    /// to 0.0431, and less than the sixteenth that Vulkan's least `mipmapPrecisionBits` of 4 tells apart. Mesa's llvmpipe
+    /// computes levels so, and it needs no logarithm.
+    Chords,
+}
+
+impl LevelRule {
+    /// The level for the square of the length.
+    fn level<F: Float>(self, squared: F) -> F {
+        match self {
+            LevelRule::Chords if squared > F::ZERO => {
+                let exponent = F::number(f64::from(squared.exponent()));
+                (exponent * F::HALF - F::ONE) + squared.significand()
+            }
+            LevelRule::Exact | LevelRule::Chords => squared.log2() * F::HALF,
+        }
+    }
+}
+
 /// How a texture is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampler {
@@ -215,6 +240,8 @@ pub struct Sampler {
     pub levels: Filter,
     /// Least and greatest level.
     pub level_range: [f32; 2],
+    /// From derivatives to levels.
+    pub level_rule: LevelRule,
 }
 
 impl Default for Sampler {
@@ -226,6 +253,7 @@ impl Default for Sampler {
             minify: Filter::Nearest,
             levels: Filter::Nearest,
             level_range: [0.0, 32.0],
+            level_rule: LevelRule::Exact,
         }
     }
 }
@@ -301,8 +329,8 @@ impl Texture {
         Spot { at: [half(s), half(t), F::ZERO], layer: 6 * layer + face as i64 }
     }
 
-    /// log2 of the larger of the lengths, in texels, that two derivatives of the coordinates have.
-    pub(crate) fn level_of<F: Float>(&self, at: [F; 3], ddx: [F; 3], ddy: [F; 3]) -> F {
+    /// log2 of the larger of the lengths, in texels, that two derivatives of the coordinates have, by a rule.
+    pub(crate) fn level_of<F: Float>(&self, at: [F; 3], ddx: [F; 3], ddy: [F; 3], rule: LevelRule) -> F {
         let size = self.size(0).map(|n| F::number(f64::from(n)));
         let texels = |d: [F; 3]| -> F {
             let d = if self.shape == Shape::Cube {
@@ -322,7 +350,7 @@ impl Texture {
             };
             (0..n).fold(F::ZERO, |sum, i| sum + d[i] * size[i] * d[i] * size[i])
         };
-        texels(ddx).most(texels(ddy)).log2() * F::HALF
+        rule.level(texels(ddx).most(texels(ddy)))
     }
 
     /// A filtered sample at a level, limited by the sampler and the texture.

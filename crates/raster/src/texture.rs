@@ -3,7 +3,7 @@
 use halfvector_codegen::reflection::SamplerSource;
 use halfvector_graph::value::{ColorSpace, Filter, Wrap};
 use halfvector_ibl::{Cube, DfgTable};
-use halfvector_interp::{Address, Level, Sampler, Shape, Texture};
+use halfvector_interp::{Address, Level, LevelRule, Sampler, Shape, Texture};
 use halfvector_maps::{Image, Texels};
 use halfvector_scene::texture_levels;
 
@@ -56,7 +56,7 @@ pub(crate) fn dfg(table: &DfgTable) -> Option<Texture> {
     Texture::new(Shape::D2, 1, vec![Level { width: size, height: size, depth: 1, texels }]).ok()
 }
 
-/// A sampler.
+/// A sampler. Levels are found as a software GPU finds them, so that its pictures and these are alike.
 pub fn sampler(source: &SamplerSource) -> Sampler {
     let (wrap_u, wrap_v, filter) = match source {
         SamplerSource::Image { wrap_u, wrap_v, filter } => (*wrap_u, *wrap_v, *filter),
@@ -67,8 +67,9 @@ pub fn sampler(source: &SamplerSource) -> Sampler {
         Wrap::Clamp => Address::Clamp,
         Wrap::Mirror => Address::Mirror,
     });
+    let level_rule = LevelRule::Chords;
     match filter {
-        Filter::Linear => Sampler { address, ..Sampler::linear(Address::Clamp) },
-        Filter::Nearest => Sampler { address, ..Sampler::default() },
+        Filter::Linear => Sampler { address, level_rule, ..Sampler::linear(Address::Clamp) },
+        Filter::Nearest => Sampler { address, level_rule, ..Sampler::default() },
     }
 }

@@ -30,4 +30,4 @@ pub use error::ReferenceError;
 pub use film::Picture;
 pub use model::Conductor;
 pub use render::{Reference, RenderOptions};
-pub use stability::{Finding, Stability, StabilityError, stability};
+pub use stability::{Finding, Precision, Stability, StabilityError, stability};

@@ -1,5 +1,5 @@
-//! Where a material is numerically unstable: each of its nodes in f32 and in f64, by the same WGSL, over the points and
-//! parameters that it may meet.
+//! Where a material is numerically unstable: each of its nodes in f32 (or f16) and in f64, by the same WGSL, over the points
+//! and parameters that it may meet.
 //!
 //! The nodes of `material(context) -> Surface` are computed from the same contexts in both precisions. With f the chain of
 //! nodes up to an output and x its context, in numbers of f32, the output is unstable where
@@ -8,7 +8,7 @@
 //! |f32(x) - f64(x)| > 8 max |f64(x') - f64(x)| + 1e-3 max(|f64(x)|, rms f64),    x' within 2 ulp of x
 //! ```
 //!
-//! or where f32(x) is not finite and f64(x) is. Steps (floor, checker, the borders of Worley's cells) are excused: between x
+//! or where f32(x) is not finite and f64(x) is. Of f16 the tolerance is 8e-3, and x and its ulps are f16's. Steps (floor, checker, the borders of Worley's cells) are excused: between x
 //! and a neighbour where f64 has what f32 has at x there is a jump that does not shrink however closely it is looked at. They are listed as
 //! edges. A node that is only handed what a node before it spoiled is not named: the first one is.
 //!
@@ -21,9 +21,10 @@ mod trace;
 use halfvector_graph::document::NodeId;
 use halfvector_scene::Scene;
 
+pub use crate::stability::domain::Precision;
 use crate::stability::trace::Trace;
 
-/// An output of a node that computes differently in f32.
+/// An output of a node that computes differently in the narrow arithmetic: f32, or f16 where that was asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// The node's id in the document.
@@ -32,24 +33,24 @@ pub struct Finding {
     pub label: String,
     /// The output, with a component where it is a vector: `out.x`.
     pub output: String,
-    /// What f32 gives where the two are farthest apart; may be infinite or NaN.
-    pub single: f64,
+    /// What it gives where it is farthest from f64; may be infinite or NaN.
+    pub narrow: f64,
     /// What f64 gives there.
     pub exact: f64,
     /// Where that is: contexts (`uv0.x`) and exposed parameters by name.
     pub input: Vec<(String, f64)>,
-    /// Points at which f32 is infinite or no number, and f64 is finite.
+    /// Points at which it is infinite or no number, and f64 is finite.
     pub not_finite: usize,
-    /// Points at which f32 is 0 or below the normal range, and f64 is not 0.
+    /// Points at which it is 0 or below the normal range, and f64 is not 0.
     pub underflows: usize,
     /// Points at which the value is too large for f16.
     pub beyond_f16: usize,
 }
 
 impl Finding {
-    /// How far f32 is from f64 there; infinite where f32 is no number.
+    /// How far it is from f64 there; infinite where it is no number.
     pub fn error(&self) -> f64 {
-        let error = (self.single - self.exact).abs();
+        let error = (self.narrow - self.exact).abs();
         if error.is_nan() { f64::INFINITY } else { error }
     }
 }
@@ -57,9 +58,9 @@ impl Finding {
 /// What was found in a material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stability {
-    /// Outputs that f32 gets wrong: at most one for each node, its worst.
+    /// Outputs that it gets wrong: at most one for each node, its worst.
     pub unstable: Vec<Finding>,
-    /// Outputs that jump, and that f32 gets wrong only at the jumps.
+    /// Outputs that jump, and that it gets wrong only at the jumps.
     pub edges: Vec<Finding>,
 }
 
@@ -92,14 +93,14 @@ pub enum StabilityError {
     },
 }
 
-/// Judges material number `material` of a scene whose images are loaded.
+/// Judges material number `material` of a scene whose images are loaded, computed in `precision`, against f64.
 ///
 /// # Errors
 /// When it is no sound material, or an image is missing.
 ///
 /// # Panics
 /// When the scene has no material of that number.
-pub fn stability(scene: &Scene, material: usize) -> Result<Stability, StabilityError> {
+pub fn stability(scene: &Scene, material: usize, precision: Precision) -> Result<Stability, StabilityError> {
     let trace = Trace::new(scene, &scene.materials[material])?;
-    judge::judge(&trace)
+    judge::judge(&trace, precision)
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Button, TextEdit};
 use halfvector_graph::check::{Problem, Severity};
 use halfvector_graph::document::Document;
-use halfvector_reference::{Finding, Stability, stability};
+use halfvector_reference::{Finding, Precision, Stability, stability};
 use halfvector_scene::{ImageStore, Scene, SceneMaterial, normal_map_problems};
 
 use crate::action::{Action, found};
@@ -194,7 +194,7 @@ fn look(job: &Job) -> Found {
     let found = job.stability.then(|| {
         loaded.map_err(|error| error.to_string())?;
         let scene = Scene { materials: vec![material], images, ..Scene::default() };
-        stability(&scene, 0).map_err(|error| error.to_string())
+        stability(&scene, 0, Precision::Single).map_err(|error| error.to_string())
     });
     Found { revision: job.revision, problems, stability: found }
 }
@@ -233,7 +233,7 @@ fn unstable(ui: &mut egui::Ui, session: &Session, finding: &Finding, what: &str,
         ui.weak(&finding.output);
         let place: Vec<String> = finding.input.iter().map(|(name, x)| format!("{name} = {x:.6}")).collect();
         let place = if place.is_empty() { "its constants".to_owned() } else { place.join(", ") };
-        ui.label(format!("{what}: {:.6} instead of {:.6} at {place}", finding.single, finding.exact));
+        ui.label(format!("{what}: {:.6} instead of {:.6} at {place}", finding.narrow, finding.exact));
         for (count, what) in [
             (finding.not_finite, "infinite or no number"),
             (finding.underflows, "below f32's range"),

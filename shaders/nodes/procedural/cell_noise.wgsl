@@ -1,5 +1,6 @@
 // Random values of unit cells over a window: where the window crosses a border the two values are mixed by their parts of it, exactly for
-// windows up to one cell along the axes; wider ones fade to the mean.
+// windows up to one cell along the axes; wider ones fade to the mean. The distance to the border is taken first: beside it it is exact, and
+// a window may be as narrow as rounding.
 
 /// Cell Noise 2D
 ///
@@ -16,7 +17,7 @@ fn node_procedural_cell_noise_2d(uv: vec2f, scale: f32, seed: i32) -> f32 {
     let window = max(fwidth(p), vec2f(1e-6));
     let w = min(window, vec2f(1.0));
     let first = floor(p - 0.5 * w);
-    let second = clamp((p + 0.5 * w - first - 1.0) / w, vec2f(0.0), vec2f(1.0));
+    let second = clamp((p - (first + 1.0)) / w + 0.5, vec2f(0.0), vec2f(1.0));
     let left = w / window;
     return mix(0.5, lattice_mix2(vec2i(first), second, seed), left.x * left.y);
 }
@@ -41,7 +42,7 @@ fn node_procedural_cell_noise_3d(position: vec3f, scale: f32, seed: i32) -> f32 
     let window = max(fwidth(p), vec3f(1e-6));
     let w = min(window, vec3f(1.0));
     let first = floor(p - 0.5 * w);
-    let second = clamp((p + 0.5 * w - first - 1.0) / w, vec3f(0.0), vec3f(1.0));
+    let second = clamp((p - (first + 1.0)) / w + 0.5, vec3f(0.0), vec3f(1.0));
     let left = w / window;
     return mix(0.5, lattice_mix3(vec3i(first), second, seed), left.x * left.y * left.z);
 }

@@ -9,7 +9,7 @@ use halfvector_graph::flatten::flatten;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput};
-use halfvector_reference::{Finding, Stability};
+use halfvector_reference::{Finding, Precision, Stability};
 use halfvector_scene::{ImageStore, Scene, SceneMaterial};
 use serde_json::json;
 
@@ -22,6 +22,7 @@ use crate::output::{note, print, print_json};
 #[command(after_help = "Example:
   halfvector check examples/*.material.json --format json
   halfvector check --stability examples/unstable/cancellation.material.json
+  halfvector check --stability --f16 examples/car-paint.material.json
   halfvector check --cost examples/rusted-iron.material.json
 
 Exit code 3 when there is an error or, with --stability, something unstable, 1 when a file cannot be read, 0 when there are only warnings or nothing.")]
@@ -33,6 +34,9 @@ pub(crate) struct CheckArgs {
     /// wrong; what jumps (floor, checker) is listed apart
     #[arg(long)]
     stability: bool,
+    /// With --stability: also in f16, for targets that compute in half precision
+    #[arg(long, requires = "stability")]
+    f16: bool,
     /// Also estimates what each node and the whole shader cost under one directional light: instructions by class, reads of
     /// textures, bytes of uniforms
     #[arg(long)]
@@ -61,6 +65,8 @@ struct Found {
 struct Judged {
     file: PathBuf,
     stability: Stability,
+    /// The same in f16, where that was asked for.
+    half: Option<Stability>,
 }
 
 /// What --cost found in a file.
@@ -83,8 +89,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
                     let mut problems = problems(material);
                     let sound = problems.iter().all(|problem| problem.severity != Severity::Error);
                     if args.stability && sound {
-                        match stability(material) {
-                            Ok(stability) => judged.push(Judged { file: path.clone(), stability }),
+                        match stability(material, args.f16) {
+                            Ok((stability, half)) => judged.push(Judged { file: path.clone(), stability, half }),
                             Err(message) => problems.push(of_document(message)),
                         }
                     }
@@ -112,9 +118,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
     match args.format {
         Format::Text => {
             let mut lines: Vec<_> = found.iter().map(|f| format!("{}: {}", f.file.display(), f.problem)).collect();
-            for Judged { file, stability } in &judged {
-                lines.extend(stability.unstable.iter().map(|f| finding_line(file, "unstable", f)));
-                lines.extend(stability.edges.iter().map(|f| finding_line(file, "edge", f)));
+            for Judged { file, stability, half } in &judged {
+                for (number, stability) in std::iter::once(("f32", stability)).chain(half.iter().map(|s| ("f16", s))) {
+                    lines.extend(stability.unstable.iter().map(|f| finding_line(file, "unstable", number, f)));
+                    lines.extend(stability.edges.iter().map(|f| finding_line(file, "edge", number, f)));
+                }
             }
             lines.extend(costed.iter().flat_map(cost_lines));
             if !unreadable && lines.is_empty() {
@@ -125,13 +133,12 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
         Format::Json => {
             let mut result = json!({ "problems": found.iter().map(as_json).collect::<Vec<_>>() });
             if args.stability {
-                let all = |of: fn(&Stability) -> &Vec<Finding>| -> Vec<serde_json::Value> {
-                    let each =
-                        |j: &Judged| of(&j.stability).iter().map(|f| finding_json(&j.file, f)).collect::<Vec<_>>();
-                    judged.iter().flat_map(each).collect()
-                };
-                result["unstable"] = all(|stability| &stability.unstable).into();
-                result["edges"] = all(|stability| &stability.edges).into();
+                let in_f32 = judged.iter().map(|j| (j.file.as_path(), &j.stability));
+                stability_json(in_f32, "f32", &mut result);
+                if args.f16 {
+                    let in_f16 = judged.iter().filter_map(|j| Some((j.file.as_path(), j.half.as_ref()?)));
+                    stability_json(in_f16, "f16", &mut result["f16"]);
+                }
             }
             if args.cost {
                 result["cost"] = costed.iter().map(cost_json).collect();
@@ -140,7 +147,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
         }
     }
     let has_error = found.iter().any(|f| f.problem.severity == Severity::Error)
-        || judged.iter().any(|j| !j.stability.unstable.is_empty());
+        || judged.iter().any(|j| std::iter::once(&j.stability).chain(&j.half).any(|s| !s.unstable.is_empty()));
     Ok(match (unreadable, has_error) {
         (true, _) => WRONG_INPUT,
         (false, true) => FOUND,
@@ -161,18 +168,33 @@ fn as_json(found: &Found) -> serde_json::Value {
     })
 }
 
-/// One row of the table: file, kind, node and output, both results, where.
-fn finding_line(file: &Path, kind: &str, finding: &Finding) -> String {
-    let Finding { node, label, output, single, exact, input, not_finite, underflows, beyond_f16 } = finding;
+/// Writes the lists `unstable` and `edges` of what was judged in an arithmetic.
+fn stability_json<'s>(
+    judged: impl Iterator<Item = (&'s Path, &'s Stability)> + Clone,
+    number: &str,
+    result: &mut serde_json::Value,
+) {
+    let all = |of: fn(&Stability) -> &Vec<Finding>| -> Vec<serde_json::Value> {
+        let each = |(file, stability)| of(stability).iter().map(move |f| finding_json(file, number, f));
+        judged.clone().flat_map(each).collect()
+    };
+    result["unstable"] = all(|stability| &stability.unstable).into();
+    result["edges"] = all(|stability| &stability.edges).into();
+}
+
+/// One row of the table: file, kind, node and output, both results, where. `number`: what was judged, f32 or f16.
+fn finding_line(file: &Path, kind: &str, number: &str, finding: &Finding) -> String {
+    let Finding { node, label, output, narrow, exact, input, not_finite, underflows, beyond_f16 } = finding;
     let place: Vec<String> = input.iter().map(|(name, x)| format!("{name} = {x}")).collect();
     let mut line = format!(
-        "{}: {kind}: `{label}` ({node}.{output}): f32 gives {single}, exact is {exact}, {:.3e} apart, at {}",
+        "{}: {kind}: `{label}` ({node}.{output}): {number} gives {narrow}, exact is {exact}, {:.3e} apart, at {}",
         file.display(),
         finding.error(),
         if place.is_empty() { "its constants".to_owned() } else { place.join(", ") }
     );
+    let below = format!("below {number}'s range");
     for (count, what) in
-        [(not_finite, "infinite or no number"), (underflows, "below f32's range"), (beyond_f16, "beyond f16's range")]
+        [(not_finite, "infinite or no number"), (underflows, below.as_str()), (beyond_f16, "beyond f16's range")]
     {
         if *count > 0 {
             line += &format!("; {what} at {count} points");
@@ -181,15 +203,15 @@ fn finding_line(file: &Path, kind: &str, finding: &Finding) -> String {
     line
 }
 
-fn finding_json(file: &Path, finding: &Finding) -> serde_json::Value {
-    let Finding { node, label, output, single, exact, input, not_finite, underflows, beyond_f16 } = finding;
+fn finding_json(file: &Path, number: &str, finding: &Finding) -> serde_json::Value {
+    let Finding { node, label, output, narrow, exact, input, not_finite, underflows, beyond_f16 } = finding;
     // JSON has no infinity and no NaN: null.
     json!({
         "file": file.display().to_string(),
         "node": node,
         "node_label": label,
         "output": output,
-        "f32": single,
+        number: narrow,
         "f64": exact,
         "error": finding.error(),
         "input": input.iter().map(|(name, x)| (name.clone(), json!(x))).collect::<serde_json::Map<_, _>>(),
@@ -199,11 +221,12 @@ fn finding_json(file: &Path, finding: &Finding) -> serde_json::Value {
     })
 }
 
-/// Runs a material's nodes in both precisions.
-fn stability(material: &SceneMaterial) -> Result<Stability, String> {
+/// Runs a material's nodes in f32 and f64, and in f16 where that is asked for.
+fn stability(material: &SceneMaterial, f16: bool) -> Result<(Stability, Option<Stability>), String> {
     let mut scene = Scene { materials: vec![material.clone()], ..Scene::default() };
     scene.load_images().map_err(|error| error.to_string())?;
-    halfvector_reference::stability(&scene, 0).map_err(|error| error.to_string())
+    let judge = |precision| halfvector_reference::stability(&scene, 0, precision).map_err(|error| error.to_string());
+    Ok((judge(Precision::Single)?, f16.then(|| judge(Precision::Half)).transpose()?))
 }
 
 /// The materials of a file.

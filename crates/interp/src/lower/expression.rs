@@ -115,7 +115,7 @@ impl<'m> Lower<'m> {
 
     fn derivative(&mut self, axis: naga::DerivativeAxis, reg: Reg) -> Result<Reg> {
         let class = self.class(reg);
-        let along = |vertical| Op::Derivative { vertical };
+        let along = |vertical| Op::Derivative { vertical, coarse: false };
         match axis {
             naga::DerivativeAxis::X => self.emit(along(false), class, [reg, NONE, NONE]),
             naga::DerivativeAxis::Y => self.emit(along(true), class, [reg, NONE, NONE]),

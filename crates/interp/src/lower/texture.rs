@@ -147,9 +147,10 @@ impl<'m> Lower<'m> {
             _ => return self.refuse("something that is no read of a texture"),
         }
         // A derivative is taken of the coordinates, so it knows how its lanes are arranged: an instruction of its own.
+        // WGSL leaves open whose difference chooses the level; devices choose one level for each block of two by two.
         if read.query == Query::Auto {
             for i in 0..read.dimension.components() {
-                let along = |vertical| Op::Derivative { vertical };
+                let along = |vertical| Op::Derivative { vertical, coarse: true };
                 read.ddx[i] = self.emit(along(false), Class::Float, [read.coordinate[i], NONE, NONE])?;
                 read.ddy[i] = self.emit(along(true), Class::Float, [read.coordinate[i], NONE, NONE])?;
             }

@@ -107,9 +107,13 @@ impl<F: Float> Machine<'_, F> {
                     self.words.block_mut(step.dst).fill(length);
                 }
             }
-            Op::Derivative { vertical } => {
-                let quads = bound.quads;
-                by_width!(self, step.class, file => derivative(file, step, vertical, quads));
+            Op::Derivative { vertical, coarse } => {
+                // The lanes that are compared: those with this bit and those without, of the lane's own row or column or of
+                // its block's first.
+                let bit = if vertical { 2 } else { 1 };
+                let kept = if coarse { !3 } else { !bit };
+                let bits = bound.quads.then_some((kept, bit));
+                by_width!(self, step.class, file => derivative(file, step, bits));
             }
             Op::Texture(read) => self.texture(read, bound),
         }
@@ -258,18 +262,18 @@ fn load<T: Float, const N: usize>(
     }
 }
 
-/// Differences within each quad: of a lane's row, or of its column.
-fn derivative<T: Float>(file: &mut File<T>, step: &Step, vertical: bool, quads: bool) {
+/// Differences within each quad: the lane's number less some bits, with and without a bit.
+fn derivative<T: Float>(file: &mut File<T>, step: &Step, bits: Option<(usize, usize)>) {
     if step.dst.same_in_all() {
         file.same[step.dst.index()] = T::ZERO;
         return;
     }
     let File { blocks, same, scratch } = file;
-    let (low, high) = if vertical { (!2, 2) } else { (!1, 1) };
-    match source(blocks, same, step.a) {
-        Source::Each(a) if quads => {
+    match (source(blocks, same, step.a), bits) {
+        (Source::Each(a), Some((kept, bit))) => {
             for lane in 0..LANES {
-                scratch[lane] = a[lane | high] - a[lane & low];
+                let low = lane & kept;
+                scratch[lane] = a[low | bit] - a[low];
             }
         }
         _ => scratch.fill(T::ZERO),

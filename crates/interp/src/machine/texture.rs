@@ -83,7 +83,8 @@ impl<F: Float> Machine<'_, F> {
                 let own = if texture.level_count() == 1 && sampler.magnify == sampler.minify {
                     F::ZERO
                 } else {
-                    texture.level_of(at, self.vector(read.ddx, lane), self.vector(read.ddy, lane))
+                    let [ddx, ddy] = [read.ddx, read.ddy].map(|regs| self.vector(regs, lane));
+                    texture.level_of(at, ddx, ddy, sampler.level_rule)
                 };
                 texture.sample(spot, own + level, &sampler, read.offset)
             }

@@ -1,8 +1,8 @@
 //! Textures: addressing, filtering, levels, cubes, arrays, queries.
 
 use halfvector_interp::{
-    Address, Column, Derivatives, Entry, Filter, Level, Limits, Outputs, Program, Resources, Sampler, Shape, Texture,
-    TextureError,
+    Address, Column, Derivatives, Entry, Filter, Level, LevelRule, Limits, Outputs, Program, Resources, Sampler, Shape,
+    Texture, TextureError,
 };
 
 use super::support::valid;
@@ -77,11 +77,26 @@ fn filters_and_levels() {
         reds(&sample(&grad, &texture, Sampler::linear(Address::Clamp), &[[0.5, 0.0, 0.0], [0.1, 0.0, 0.0]])),
         [10.0, 0.0]
     );
+    // Lengths of 1, sqrt 2 and 1.25 texels, in steps of 1/4 of the texture, and one that overflows: chords are below log2 but
+    // at powers of two of the square.
+    let chords = Sampler { level_rule: LevelRule::Chords, ..Sampler::linear(Address::Clamp) };
+    let steps = [0.25, 2.0_f32.sqrt() / 4.0, 1.25 / 4.0, 0.5, 0.0, 1e30].map(|x| [x, 0.0, 0.0]);
+    for (found, expected) in
+        reds(&sample(&grad, &texture, chords, &steps)).iter().zip([0.0, 5.0, 2.8125, 10.0, 0.0, 20.0])
+    {
+        assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+    }
+    let exact = reds(&sample(&grad, &texture, Sampler::linear(Address::Clamp), &steps))[2];
+    assert!((exact - 10.0 * 1.25_f64.log2()).abs() < 1e-5 && exact < 2.8125 + 0.431, "{exact}");
     let bias = source("texture_2d<f32>", "f32", "textureSampleBias(t, s, vec2f(x, y), z).x");
     let quad = [[0.2, 0.2, 0.5], [0.7, 0.2, 0.5], [0.2, 0.3, 0.5], [0.7, 0.3, 0.5]];
     for found in reds(&sample(&bias, &texture, Sampler::linear(Address::Clamp), &quad)) {
         assert!((found - 15.0).abs() < 1e-4, "{found}");
     }
+    // One level for the block: the jump in its second row and column does not choose it.
+    let auto = source("texture_2d<f32>", "f32", "textureSample(t, s, vec2f(x, y)).x");
+    let jump = [[0.2, 0.2, 0.0], [0.45, 0.2, 0.0], [0.2, 0.3, 0.0], [0.95, 0.9, 0.0]];
+    assert_eq!(reds(&sample(&auto, &texture, Sampler::linear(Address::Clamp), &jump)), [0.0; 4]);
 }
 
 #[test]

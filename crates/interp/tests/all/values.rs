@@ -1,6 +1,6 @@
 //! Structs, arrays, pointers, buffers, f64.
 
-use halfvector_interp::{Column, Derivatives, Entry, Limits, OutputColumn, Outputs, Program, Resources};
+use halfvector_interp::{Column, Derivatives, Entry, Float, Half, Limits, OutputColumn, Outputs, Program, Resources};
 
 use super::support::{run, valid};
 
@@ -197,4 +197,20 @@ fn three_operands_the_same_or_not() {
     for row in run::<f32>(source, &inputs, 2) {
         assert_eq!(row[..3], row[3..]);
     }
+}
+
+/// The same program in f16: every result is rounded to 11 bits, beyond 65504 there is nothing, below 2^-24 there is 0.
+#[test]
+fn halves() {
+    let source = "fn f(a: f32, b: f32) -> vec4f { return vec4f(a + b, a * b, a / b, exp(a)); }";
+    let (a, b) = ([1.0, 2048.0, 300.0, 1e-4], [3.0, 1.0, 300.0, 1e-4]);
+    let columns = [a, b].map(|all: [f64; 4]| all.map(Half::from_f64));
+    let inputs = [Column::Float(&columns[0][..]), Column::Float(&columns[1][..])];
+    let rows = run(source, &inputs, 4);
+    let [sum, product, quotient, exp] = [0, 1, 2, 3].map(|i| rows.iter().map(|row| row[i]).collect::<Vec<f64>>());
+    // 2049 lies between two numbers of f16, and is rounded to the even one.
+    assert_eq!(sum[..3], [4.0, 2048.0, 600.0]);
+    assert_eq!(product, [3.0, 2048.0, f64::INFINITY, 0.0]);
+    assert_eq!(quotient[0], 0.333_251_953_125);
+    assert_eq!((exp[0], exp[1]), (2.718_75, f64::INFINITY));
 }

@@ -1,6 +1,67 @@
 //! The points and parameters that a material is tried at.
 
+use halfvector_interp::{Float, Half};
+
 use crate::stability::trace::Trace;
+
+/// The arithmetic that is judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// f32: what nearly all shaders compute in.
+    #[default]
+    Single,
+    /// f16 throughout, inputs and parameters as well: what `mediump` and `half` targets may compute in.
+    Half,
+}
+
+impl Precision {
+    /// Bits of the fraction.
+    fn bits(self) -> i32 {
+        match self {
+            Precision::Single => 23,
+            Precision::Half => 10,
+        }
+    }
+
+    /// The least number of the normal range.
+    pub(super) fn least_normal(self) -> f64 {
+        match self {
+            Precision::Single => f64::from(f32::MIN_POSITIVE),
+            Precision::Half => 2.0_f64.powi(-14),
+        }
+    }
+
+    /// Error that is no fault, relative to the value or to the output's rms: a quarter of a step of an 8-bit display; of f16,
+    /// which is a quarter of a step apart itself, eight times that.
+    pub(super) fn tolerance(self) -> f64 {
+        match self {
+            Precision::Single => 1e-3,
+            Precision::Half => 8e-3,
+        }
+    }
+
+    /// How far away a jump may lie that a point was taken across: about 800 units of the last place of f32 at 1, 20 of f16.
+    pub(super) fn reach(self) -> f64 {
+        match self {
+            Precision::Single => 1e-4,
+            Precision::Half => 2e-2,
+        }
+    }
+
+    /// The nearest number.
+    pub(super) fn rounded(self, x: f64) -> f64 {
+        match self {
+            Precision::Single => f64::from(x as f32),
+            Precision::Half => Half::from_f64(x).to_f64(),
+        }
+    }
+
+    /// A number moved by so many of its units in the last place.
+    pub(super) fn moved(self, x: f64, ulps: f64) -> f64 {
+        let exponent = if x.abs() < self.least_normal() { self.least_normal().log2() } else { x.abs().log2().floor() };
+        x + ulps * 2.0_f64.powi(exponent as i32 - self.bits())
+    }
+}
 
 /// Points for each setting of the parameters.
 pub(super) const POINTS: usize = 1024;
@@ -38,10 +99,10 @@ impl Random {
     }
 }
 
-/// Columns of the contexts' scalars, all numbers of f32. One point in four lies on a coarse lattice, where patterns have
+/// Columns of the contexts' scalars, all numbers of the precision. One point in four lies on a coarse lattice, where patterns have
 /// their corners; texture coordinates go from 0 to 1, every other time from -4 to 4; positions from -2 to 2 m; an hour of
 /// time.
-pub(super) fn contexts(trace: &Trace<'_>, random: &mut Random) -> Vec<Vec<f64>> {
+pub(super) fn contexts(trace: &Trace<'_>, precision: Precision, random: &mut Random) -> Vec<Vec<f64>> {
     let mut points = Vec::with_capacity(POINTS);
     for number in 0..POINTS {
         let mut lattice = |low: f64, high: f64| {
@@ -80,7 +141,7 @@ pub(super) fn contexts(trace: &Trace<'_>, random: &mut Random) -> Vec<Vec<f64>> 
                         "time" => *time,
                         _ => 0.0,
                     };
-                    f64::from(number as f32)
+                    precision.rounded(number)
                 };
             points.iter().map(of).collect()
         })
@@ -94,7 +155,7 @@ fn dot(a: V, b: V) -> f64 {
 }
 
 /// The numbers of each parameter in setting number `setting`.
-pub(super) fn setting(trace: &Trace<'_>, setting: usize, random: &mut Random) -> Vec<Vec<f32>> {
+pub(super) fn setting(trace: &Trace<'_>, precision: Precision, setting: usize, random: &mut Random) -> Vec<Vec<f32>> {
     let of = |parameter: &crate::stability::trace::Parameter| {
         let [low, high] = parameter.range;
         let mut number = |default: f32| match setting {
@@ -103,14 +164,7 @@ pub(super) fn setting(trace: &Trace<'_>, setting: usize, random: &mut Random) ->
             2 => high,
             _ => random.between(f64::from(low), f64::from(high)) as f32,
         };
-        parameter.default.iter().map(|&default| number(default)).collect()
+        parameter.default.iter().map(|&default| precision.rounded(f64::from(number(default))) as f32).collect()
     };
     trace.parameters.iter().map(of).collect()
-}
-
-/// A number of f32 moved by so many of its units in the last place.
-pub(super) fn moved(x: f64, ulps: f64) -> f64 {
-    let x32 = x as f32;
-    let ulp = f64::from(f32::from_bits(x32.abs().to_bits() + 1)) - f64::from(x32.abs());
-    x + ulps * ulp
 }

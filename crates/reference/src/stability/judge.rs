@@ -3,27 +3,25 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use halfvector_graph::document::{Document, NodeId};
+use halfvector_interp::{Float, Half};
 
-use crate::stability::domain::{POINTS, Random, SETTINGS, contexts, moved, setting};
+use crate::stability::domain::{POINTS, Precision, Random, SETTINGS, contexts, setting};
 use crate::stability::trace::{Trace, Value};
 use crate::stability::{Finding, Stability, StabilityError};
 
 /// How many times the change of f64 within [`ULPS`] an error may be.
 const FACTOR: f64 = 8.0;
 
-/// How far neighbours lie in units of the last place of f32.
+/// How far neighbours lie in units of the last place of the precision.
 const ULPS: f64 = 2.0;
 
 /// Neighbours of each point.
 const NEIGHBOURS: usize = 8;
 
-/// Error that is no fault, relative to the value or to the output's rms: a quarter of a step of an 8-bit display.
-const TOLERANCE: f64 = 1e-3;
-
 /// Points at which one output is looked at closely.
 const SUSPECTS: usize = 16;
 
-/// Neighbours that are tried when a jump is looked for; the farthest is 1e-4 away.
+/// Neighbours that are tried when a jump is looked for.
 const TRIES: usize = 96;
 
 /// Parts that the way across a jump is cut in, again and again: five times make 2^-35 of the way.
@@ -38,14 +36,14 @@ struct Suspect {
     value: usize,
     setting: usize,
     point: usize,
-    single: f64,
+    narrow: f64,
     exact: f64,
     tolerance: f64,
 }
 
 impl Suspect {
     fn error(&self) -> f64 {
-        let error = (self.single - self.exact).abs();
+        let error = (self.narrow - self.exact).abs();
         if error.is_nan() { f64::INFINITY } else { error }
     }
 }
@@ -58,31 +56,38 @@ struct Counts {
     beyond_f16: usize,
 }
 
-pub(super) fn judge(trace: &Trace<'_>) -> Result<Stability, StabilityError> {
+pub(super) fn judge(trace: &Trace<'_>, precision: Precision) -> Result<Stability, StabilityError> {
+    match precision {
+        Precision::Single => judge_in::<f32>(trace, precision),
+        Precision::Half => judge_in::<Half>(trace, precision),
+    }
+}
+
+fn judge_in<F: Float>(trace: &Trace<'_>, precision: Precision) -> Result<Stability, StabilityError> {
     let mut random = Random::new(1);
     let mut domains = Vec::new();
     let settings = if trace.parameters.is_empty() { 1 } else { SETTINGS };
     for number in 0..settings {
-        domains.push((contexts(trace, &mut random), setting(trace, number, &mut random)));
+        domains.push((contexts(trace, precision, &mut random), setting(trace, precision, number, &mut random)));
     }
     let mut counts = vec![Counts::default(); trace.values.len()];
     let mut suspects: BTreeMap<usize, Vec<Suspect>> = BTreeMap::new();
     for (number, (points, parameters)) in domains.iter().enumerate() {
-        let single = trace.run::<f32>(points, POINTS, parameters)?;
+        let narrow = trace.run::<F>(points, POINTS, parameters)?;
         let exact = trace.run::<f64>(points, POINTS, parameters)?;
-        let change = change(trace, points, parameters, &exact, &mut random)?;
+        let change = change(trace, precision, points, parameters, &exact, &mut random)?;
         let rms = rms(&trace.values, &exact);
         for value in 0..trace.values.len() {
             for point in 0..POINTS {
-                let (single, exact) = (single[value][point], exact[value][point]);
+                let (narrow, exact) = (narrow[value][point], exact[value][point]);
                 let count = &mut counts[value];
-                count.not_finite += usize::from(exact.is_finite() && !single.is_finite());
-                count.underflows += usize::from(exact != 0.0 && single.abs() < f64::from(f32::MIN_POSITIVE));
+                count.not_finite += usize::from(exact.is_finite() && !narrow.is_finite());
+                count.underflows += usize::from(exact != 0.0 && narrow.abs() < precision.least_normal());
                 count.beyond_f16 += usize::from(exact.abs() > 65504.0);
-                let tolerance = TOLERANCE * exact.abs().max(rms[trace.values[value].group]);
-                let suspect = Suspect { value, setting: number, point, single, exact, tolerance };
+                let tolerance = precision.tolerance() * exact.abs().max(rms[trace.values[value].group]);
+                let suspect = Suspect { value, setting: number, point, narrow, exact, tolerance };
                 let allowed = FACTOR * change[value][point] + tolerance;
-                if exact.is_finite() && (!single.is_finite() || suspect.error() > allowed) {
+                if exact.is_finite() && (!narrow.is_finite() || suspect.error() > allowed) {
                     suspects.entry(value).or_default().push(suspect);
                 }
             }
@@ -97,7 +102,7 @@ pub(super) fn judge(trace: &Trace<'_>) -> Result<Stability, StabilityError> {
         let step = all.len().div_ceil(SUSPECTS).max(1);
         for suspect in all.iter().step_by(step) {
             let (points, parameters) = &domains[suspect.setting];
-            if !suspect.single.is_finite() || !is_edge(trace, points, parameters, suspect, &mut random)? {
+            if !suspect.narrow.is_finite() || !is_edge(trace, precision, points, parameters, suspect, &mut random)? {
                 worst = Some(*suspect);
                 break;
             }
@@ -125,6 +130,7 @@ pub(super) fn judge(trace: &Trace<'_>) -> Result<Stability, StabilityError> {
 /// The largest change of each value between each point and its neighbours.
 fn change(
     trace: &Trace<'_>,
+    precision: Precision,
     points: &[Vec<f64>],
     parameters: &[Vec<f32>],
     exact: &[Vec<f64>],
@@ -133,7 +139,7 @@ fn change(
     let mut change = vec![vec![0.0_f64; POINTS]; exact.len()];
     for _ in 0..NEIGHBOURS {
         let mut near = points.to_vec();
-        near.iter_mut().flatten().for_each(|x| *x = moved(*x, ULPS * (2.0 * random.unit() - 1.0).round()));
+        near.iter_mut().flatten().for_each(|x| *x = precision.moved(*x, ULPS * (2.0 * random.unit() - 1.0).round()));
         for (value, there) in trace.run::<f64>(&near, POINTS, parameters)?.into_iter().enumerate() {
             for (point, there) in there.into_iter().enumerate() {
                 let difference = (there - exact[value][point]).abs();
@@ -160,25 +166,26 @@ fn rms(values: &[Value], exact: &[Vec<f64>]) -> Vec<f64> {
     sums.into_iter().map(|(sum, count): (f64, f64)| (sum / count.max(1.0)).sqrt()).collect()
 }
 
-/// Whether f64 jumps beside a point to what f32 gives at it.
+/// Whether f64 jumps beside a point to what the narrow arithmetic gives at it.
 fn is_edge(
     trace: &Trace<'_>,
+    precision: Precision,
     points: &[Vec<f64>],
     parameters: &[Vec<f32>],
     suspect: &Suspect,
     random: &mut Random,
 ) -> Result<bool, StabilityError> {
     let at: Vec<f64> = points.iter().map(|column| column[suspect.point]).collect();
-    // Ever farther: from less than an ulp to 1e-4.
+    // Ever farther, from less than an ulp.
     let mut tries: Vec<Vec<f64>> = vec![Vec::with_capacity(TRIES); at.len()];
     for number in 0..TRIES {
-        let radius = 1e-4 * 0.5_f64.powf((TRIES - 1 - number) as f64 / 8.0);
+        let radius = precision.reach() * 0.5_f64.powf((TRIES - 1 - number) as f64 / 8.0);
         for (column, x) in tries.iter_mut().zip(&at) {
             column.push(x + radius * x.abs().max(1.0) * (2.0 * random.unit() - 1.0));
         }
     }
     let there = trace.run::<f64>(&tries, TRIES, parameters)?;
-    let alike = |x: f64| (x - suspect.single).abs() <= 0.1 * suspect.error() + suspect.tolerance;
+    let alike = |x: f64| (x - suspect.narrow).abs() <= 0.1 * suspect.error() + suspect.tolerance;
     let Some(found) = (0..TRIES).find(|&number| alike(there[suspect.value][number])) else { return Ok(false) };
     let mut ends = [at, tries.iter().map(|column| column[found]).collect::<Vec<f64>>()];
     let mut jump = f64::INFINITY;
@@ -232,7 +239,7 @@ fn finding(
         node,
         label,
         output,
-        single: suspect.single,
+        narrow: suspect.narrow,
         exact: suspect.exact,
         input: contexts.chain(set).collect(),
         not_finite: counts.not_finite,

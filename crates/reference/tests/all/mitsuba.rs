@@ -1,7 +1,10 @@
 //! Against pictures of a sphere by Mitsuba 3.9.1, with the same models: a mean of 4 x 4 pixels each, or every pixel.
 //!
 //! Mitsuba's files have no error for each pixel; what stands beside them is the mean, over the ball, of the relative
-//! standard error between passes. It is given to every pixel, times its value.
+//! standard error between passes. It is given to every pixel, times its value. Where light is the same from everywhere
+//! that is not good enough: noise is most of what differs, and Mitsuba's is 1.4 times as large near the rim as in the middle.
+//! But pixels at one distance from the middle of the ball see the same there, so that both pictures' errors are taken
+//! from such rings.
 
 use halfvector_graph::value::Value;
 use halfvector_ibl::{LoadedEnvironment, white};
@@ -12,6 +15,9 @@ use halfvector_scene::{BuiltinMesh, Scene};
 use crate::{color, data, is_full, number, scene};
 
 const SIZE: usize = 256;
+
+/// Pixels to either side, by distance, that an error is taken from.
+const RING: usize = 64;
 
 fn compare(name: &str, scene: &mut Scene, conductor: Option<Conductor>) {
     let Some(folder) = data("mitsuba") else { return };
@@ -40,7 +46,10 @@ fn compare_one(
         white()
     };
     scene.environment_rotation = -90.0;
-    let (coarse, samples) = if is_full() { (1, 1024) } else { (4, 192) };
+    // Under a white sky what varies is how many samples are lost below the horizon: one in 40 or so. Of 192 that is too few to
+    // be spread like a Gauss curve, whose tail z is held against.
+    let coarse = if is_full() { 1 } else { 4 };
+    let samples = if is_full() || environment == "white" { 1024 } else { 192 };
     let size = SIZE / coarse;
     let options = RenderOptions {
         width: size as u32,
@@ -76,7 +85,6 @@ fn compare_one(
         theirs.iter().map(|pixel| pixel.map(|x| x * relative_error / coarse as f64)).collect();
     let both: Vec<[f64; 3]> =
         errors.iter().zip(&their_errors).map(|(a, b)| std::array::from_fn(|c| a[c].hypot(b[c]))).collect();
-    let z = scores(&ours, &errors, &theirs, &their_errors);
     let d = difference(&ours, &theirs, Some(&both));
     println!(
         "{file}: {samples} paths, mean {:+.3} %, rmse less noise {:.1e}, {:.2} M paths/s",
@@ -85,14 +93,39 @@ fn compare_one(
         paths / 1e6
     );
     assert!(d.mean_relative.abs() < 2e-3, "{file}: {d:?}");
-    // Where light is the same from everywhere nearly all samples of a pixel are alike, and a few are lost below the horizon:
-    // few samples do not tell their own error there. Without any noise the numbers themselves must agree.
-    if environment == "hdr" {
-        println!("  z rms {:.3}, beyond 3 {:.2} %, largest {:.2}", z.rms, 100.0 * z.beyond_3, z.largest);
-        assert!((0.8..=1.2).contains(&z.rms) && z.beyond_3 <= 5e-3 && z.largest < 6.0, "{file}: {z:?}");
-    } else if relative_error < 1e-6 {
+    // Without any noise the numbers themselves must agree.
+    if relative_error < 1e-6 {
         assert!(d.largest < 1e-4, "{file}: {d:?}");
+        return;
     }
+    let z = if environment == "hdr" {
+        scores(&ours, &errors, &theirs, &their_errors)
+    } else {
+        let place = |k: usize| (k as f64 + 0.5) / size as f64 * 2.0 - 1.0;
+        let mut by_distance: Vec<usize> = (0..on_ball.len()).collect();
+        let distance = |i: &usize| place(on_ball[*i] % size).hypot(place(on_ball[*i] / size));
+        by_distance.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let sorted = |all: &[[f64; 3]]| -> Vec<[f64; 3]> { by_distance.iter().map(|i| all[*i]).collect() };
+        let (ours, errors, theirs) = (sorted(&ours), sorted(&errors), sorted(&theirs));
+        // Few samples of a pixel do not tell their own error: nearly all are alike, and a few are lost below the horizon.
+        let squares: Vec<[f64; 3]> = errors.iter().map(|pixel| pixel.map(|x| x * x)).collect();
+        // Von Neumann 1941, "Distribution of the Ratio of the Mean Square Successive Difference to the Variance": what
+        // neighbours in the order differ by is noise, twice.
+        let halves = |pair: &[[f64; 3]]| std::array::from_fn(|c| 0.5 * (pair[1][c] - pair[0][c]).powi(2));
+        let steps: Vec<[f64; 3]> = theirs.windows(2).map(halves).collect();
+        scores(&ours, &of_rings(&squares, ours.len()), &theirs, &of_rings(&steps, ours.len()))
+    };
+    println!("  z rms {:.3}, beyond 3 {:.2} %, largest {:.2}", z.rms, 100.0 * z.beyond_3, z.largest);
+    assert!((0.8..=1.2).contains(&z.rms) && z.beyond_3 <= 5e-3 && z.largest < 6.0, "{file}: {z:?}");
+}
+
+/// Standard errors of `count` pixels in order of their distance: roots of the mean of those squares that are nearest.
+fn of_rings(squares: &[[f64; 3]], count: usize) -> Vec<[f64; 3]> {
+    let of = |i: usize| {
+        let ring = &squares[i.saturating_sub(RING)..(i + RING).min(squares.len())];
+        std::array::from_fn(|c| (ring.iter().map(|x| x[c]).sum::<f64>() / ring.len() as f64).sqrt())
+    };
+    (0..count).map(of).collect()
 }
 
 const METAL: [(&str, &str); 1] = [("v", "separable")];
