@@ -67,16 +67,17 @@ const CASES: &[(&str, &[&str], Fold)] = &[
 ];
 
 /// One golden: its name and what codegen makes now.
-struct Golden {
-    name: String,
-    shader: Shader,
+pub(crate) struct Golden {
+    pub(crate) name: String,
+    pub(crate) document: Document,
+    pub(crate) shader: Shader,
 }
 
 fn document(path: &str) -> Document {
     halfvector_graph::file::load(&root().join(path)).unwrap_or_else(|e| panic!("{path}: {e}"))
 }
 
-fn goldens() -> Vec<Golden> {
+pub(crate) fn goldens() -> Vec<Golden> {
     let scenes = needs();
     let mut goldens = Vec::new();
     for (path, names, fold) in CASES {
@@ -87,7 +88,7 @@ fn goldens() -> Vec<Golden> {
             let shader = shader(&document, Library::standard(), needs, *fold)
                 .unwrap_or_else(|e| panic!("{path} for {name}: {e}"));
             let live = if *fold == Fold::Live { ".live" } else { "" };
-            goldens.push(Golden { name: format!("{stem}.{name}{live}"), shader });
+            goldens.push(Golden { name: format!("{stem}.{name}{live}"), document: document.clone(), shader });
         }
     }
     goldens

@@ -7,6 +7,7 @@ mod bevy;
 mod browser;
 mod device;
 mod docs;
+mod drawn;
 mod editor;
 mod golden;
 mod images;

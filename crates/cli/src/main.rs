@@ -1,6 +1,7 @@
 //! The program `halfvector`: the command line, which is a contract (ARCHITECTURE.md), and nothing of the work itself.
 
 mod backend;
+mod budget;
 mod commands;
 mod environment;
 mod failure;

@@ -4,6 +4,8 @@
 
 #[path = "cli/bake.rs"]
 mod bake;
+#[path = "cli/budget.rs"]
+mod budget;
 #[path = "cli/compare.rs"]
 mod compare;
 #[path = "cli/reference.rs"]

@@ -6,6 +6,7 @@
 mod cost;
 mod emit;
 mod error;
+mod explain;
 mod ir;
 mod layout;
 mod line_map;
@@ -24,12 +25,14 @@ mod tests;
 pub use cost::{Cost, Instructions, NodeCost, cost};
 pub use emit::text::{Origin, Segment};
 pub use error::CodegenError;
+pub use explain::{Remark, explained};
 pub use layout::PackError;
 pub use line_map::{Lines, line_map};
 pub use passes::lower::input_value;
 pub use pipeline::{material, shader};
 pub use validate::{Place, Valid, ValidationError, place_of, validate};
 
+use passes::specialise::Keep;
 use reflection::Reflection;
 
 /// Which numbers of a document stay open in the shader.
@@ -52,6 +55,16 @@ pub struct Shader {
     pub segments: Vec<Segment>,
     /// What was left out, and why.
     pub dropped: Vec<Dropped>,
+    /// The terms of shading that this shader has a part of, each with its method, in the order of the list of terms.
+    pub methods: Vec<(&'static str, &'static str)>,
+}
+
+impl Shader {
+    /// The comment at the top: whole lines, each beginning with `//`.
+    pub fn header(&self) -> &str {
+        let lines = self.wgsl.split_inclusive('\n').take_while(|line| line.starts_with("//"));
+        &self.wgsl[..lines.map(str::len).sum()]
+    }
 }
 
 /// Something that a shader does without.
@@ -61,4 +74,9 @@ pub struct Dropped {
     pub what: String,
     /// Why it is not needed here, or what that changes.
     pub why: String,
+    /// Instructions of both stages that the shader would have more, estimated as [`cost()`] does on the shader that keeps this
+    /// one thing; none where that was not asked for ([`explained()`] does) or no such shader can be made.
+    pub instructions: Option<u32>,
+    /// What has to be different for it to be there.
+    pub(crate) kept_by: Keep,
 }

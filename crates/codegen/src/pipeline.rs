@@ -12,10 +12,10 @@ use crate::ir::Program;
 use crate::link::Index;
 use crate::names::Namer;
 use crate::passes::lower::{lower, lower_material};
-use crate::passes::specialise::{Constants, specialise};
+use crate::passes::specialise::{Constants, Keep, specialise};
 use crate::passes::types::Types;
 use crate::passes::{drop_unused::drop_unused, fold, share::share, specialise, types};
-use crate::{CodegenError, Fold, Shader, emit};
+use crate::{CodegenError, Fold, Remark, Shader, emit};
 
 /// The shader of a material for what a scene needs.
 ///
@@ -26,6 +26,45 @@ use crate::{CodegenError, Fold, Shader, emit};
 /// The document's problems that keep it from being a shader, all at once; constants that fold to no finite number are
 /// among them.
 pub fn shader(document: &Document, library: &Library, needs: &Needs, fold: Fold) -> Result<Shader, CodegenError> {
+    Making { document, library, needs, fold }.make(Extra::default())
+}
+
+/// What a shader is made of.
+#[derive(Clone, Copy)]
+pub(crate) struct Making<'m> {
+    pub(crate) document: &'m Document,
+    pub(crate) library: &'m Library,
+    pub(crate) needs: &'m Needs,
+    pub(crate) fold: Fold,
+}
+
+/// What is asked of it beside.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Extra<'m> {
+    /// What is not left out.
+    pub(crate) keep: Option<Keep>,
+    /// What the header says beside.
+    pub(crate) remarks: &'m [Remark],
+    /// What leaving something out saves, in the order of what is left out.
+    pub(crate) saved: &'m [Option<u32>],
+}
+
+impl Making<'_> {
+    /// Makes the shader.
+    pub(crate) fn make(self, extra: Extra<'_>) -> Result<Shader, CodegenError> {
+        let Making { document, library, needs, fold } = self;
+        whole(document, library, needs, fold, extra)
+    }
+}
+
+fn whole(
+    document: &Document,
+    library: &Library,
+    needs: &Needs,
+    fold: Fold,
+    extra: Extra<'_>,
+) -> Result<Shader, CodegenError> {
+    let open = extra.keep.and_then(Keep::socket);
     // check
     no_errors(check(document, library))?;
     // take groups apart
@@ -35,15 +74,16 @@ pub fn shader(document: &Document, library: &Library, needs: &Needs, fold: Fold)
     // resolve types
     let types = types::resolve(document, library)?;
     // lower, and what is constant whatever is folded
-    let (exported, constants) = export(document, library, &types, index, &needs.methods)?;
+    let (exported, constants) = export(document, library, &types, index, &needs.methods, open)?;
     let mut program = match fold {
         Fold::Export => exported,
-        Fold::Live => lower(document, &types, index, &needs.methods, Fold::Live)?,
+        Fold::Live => lower(document, &types, index, &needs.methods, Fold::Live, open)?,
     };
     // fold constants of the nodes
     fold::fold(&mut program, index);
     // specialise to needs
-    let plan = specialise(&mut program, document, needs, fold, constants);
+    let mut plan = specialise(&mut program, document, needs, fold, constants, extra.keep);
+    plan.dropped.iter_mut().zip(extra.saved).for_each(|(dropped, saved)| dropped.instructions = *saved);
     // fold constants of the shading
     fold::fold(&mut program, index);
     // drop unused
@@ -53,7 +93,7 @@ pub fn shader(document: &Document, library: &Library, needs: &Needs, fold: Fold)
     // name
     let names = Names::of(&program, &parameter_names(document), &mut Namer::new(index), index);
     // link and emit
-    emit::shader(&program, plan, document, needs, index, &names)
+    emit::shader(&program, plan, document, needs, extra.remarks, index, &names)
 }
 
 /// The material alone: `fn material(context: Context) -> Surface` and the library behind it, without lights, stages or
@@ -93,8 +133,9 @@ fn export<'a>(
     types: &Types<'a>,
     index: &Index,
     methods: &Methods,
+    open: Option<&'static str>,
 ) -> Result<(Program<'a>, Constants), CodegenError> {
-    let mut program = lower(document, types, index, methods, Fold::Export)?;
+    let mut program = lower(document, types, index, methods, Fold::Export, open)?;
     let faults = fold::fold(&mut program, index);
     no_faults(document, library, &program, &faults)?;
     let constants = specialise::constants(&program, index);

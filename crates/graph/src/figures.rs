@@ -61,7 +61,14 @@ fn read(line: &str) -> Option<Figure> {
     })
 }
 
-/// The error in words: 13 %, 5.1e-8, 12 deg; empty where there is none.
+impl Figure {
+    /// The error in words: 13 %, 5.1e-8, 12 deg; empty where there is none.
+    pub fn error_in_words(&self) -> String {
+        error_in_words(self)
+    }
+}
+
+/// The error in words.
 pub(crate) fn error_in_words(figure: &Figure) -> String {
     let Some(x) = figure.error_rms else { return String::new() };
     let number = |x: f64| match x {

@@ -2,15 +2,16 @@
 
 use std::path::PathBuf;
 
+use halfvector_codegen::Shader;
 use halfvector_codegen::target::{OutputFile, TARGETS, Target, export, target};
-use halfvector_codegen::{Fold, Shader};
 use halfvector_graph::document::Document;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::{Needs, ShaderOutput};
-use halfvector_scene::{Scene, SceneMaterial};
+use halfvector_scene::{BuiltinMesh, MeshSource, Scene, SceneMaterial};
 use serde_json::json;
 
+use crate::budget::{self, Asked, Chosen};
 use crate::environment::{bake, load};
 use crate::failure::Failure;
 use crate::input::{self, Kind};
@@ -23,7 +24,8 @@ use crate::output::{check_place, note, print_json, write_file};
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Examples:
   halfvector export examples/plain-dielectric.material.json --target wgsl -o out
-  halfvector export examples/car-paint.material.json --target web -o page")]
+  halfvector export examples/car-paint.material.json --target web -o page
+  halfvector export examples/rusted-iron.material.json --target glsl -o out --max-error 0.1 --explain")]
 pub(crate) struct ExportArgs {
     /// A material (*.material.json)
     #[arg(value_name = "DOC")]
@@ -40,7 +42,12 @@ pub(crate) struct ExportArgs {
     scene: Option<PathBuf>,
     #[command(flatten)]
     methods: super::methods::MethodChoice,
-    /// Print what was left out of the shader, and why, as JSON
+    /// Choose the cheapest measured method of Fresnel, visibility, DFG, diffuse, irradiance and compensation with which the
+    /// material stays within this error: rms over mean of linear radiance on the sphere under `studio`, against the reference. Terms
+    /// named by --method keep theirs
+    #[arg(long, value_name = "E", value_parser = parse_error)]
+    max_error: Option<f64>,
+    /// Print as JSON what was left out of the shader, why and what that saves, and what --max-error chose
     #[arg(long)]
     explain: bool,
 }
@@ -57,6 +64,13 @@ enum Wanted {
 /// Name of the page's target.
 const PAGE: &str = "web";
 
+/// What is written, and what is told of it.
+struct Export {
+    shader: Shader,
+    files: Vec<OutputFile>,
+    chosen: Option<Chosen>,
+}
+
 /// Runs the command.
 pub(crate) fn run(args: &ExportArgs) -> Result<u8, Failure> {
     if args.output.exists() && !args.output.is_dir() {
@@ -70,7 +84,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<u8, Failure> {
     }
     let document = input::material(&args.document)?;
     input::refuse_errors(&args.document, &document)?;
-    let (shader, files) = match args.target {
+    let Export { shader, files, chosen } = match args.target {
         Wanted::Code(target) => code(args, &document, target)?,
         Wanted::Page => page(args, document)?,
     };
@@ -81,13 +95,13 @@ pub(crate) fn run(args: &ExportArgs) -> Result<u8, Failure> {
         note(path.display());
     }
     if args.explain {
-        print_json(&explanation(&shader))?;
+        print_json(&explanation(&shader, chosen.as_ref()))?;
     }
     Ok(0)
 }
 
 /// The shader in a language.
-fn code(args: &ExportArgs, document: &Document, target: &Target) -> Result<(Shader, Vec<OutputFile>), Failure> {
+fn code(args: &ExportArgs, document: &Document, target: &Target) -> Result<Export, Failure> {
     let mut needs = match &args.scene {
         None => plain_needs(),
         Some(path) => {
@@ -96,13 +110,35 @@ fn code(args: &ExportArgs, document: &Document, target: &Target) -> Result<(Shad
         }
     };
     args.methods.apply(&mut needs.methods);
-    let shader = shader(args, document, &target.needs(needs))?;
+    let chosen = choose(args, document, &target.needs(needs.clone()), &|needs| target.needs(needs))?;
+    if let Some(chosen) = &chosen {
+        needs.methods = chosen.methods.clone();
+    }
+    let shader = shader(args, document, &target.needs(needs), chosen.as_ref())?;
     let files = export(&shader, target, &file_stem(args)).map_err(|error| failed(args, error))?;
-    Ok((shader, files))
+    Ok(Export { shader, files, chosen })
+}
+
+/// The methods that keep the error that was asked for.
+fn choose(
+    args: &ExportArgs,
+    document: &Document,
+    needs: &Needs,
+    target: &dyn Fn(Needs) -> Needs,
+) -> Result<Option<Chosen>, Failure> {
+    let Some(max_error) = args.max_error else { return Ok(None) };
+    let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
+    let scene = Scene::from_material(document.clone(), input::folder(&args.document), &sphere)
+        .map_err(|error| failed(args, error))?;
+    let kept = args.methods.terms();
+    let chosen = budget::choose(Asked { scene, needs, kept, target, max_error })
+        .map_err(|failure| failure.at(&args.document))?;
+    note(chosen.in_words());
+    Ok(Some(chosen))
 }
 
 /// A page with the scene, or with what `render` draws of the bare material.
-fn page(args: &ExportArgs, document: Document) -> Result<(Shader, Vec<OutputFile>), Failure> {
+fn page(args: &ExportArgs, document: Document) -> Result<Export, Failure> {
     let mut scene = match &args.scene {
         None => input::scene(&args.document, None)?,
         Some(path) => {
@@ -114,11 +150,18 @@ fn page(args: &ExportArgs, document: Document) -> Result<(Shader, Vec<OutputFile
     scene.name.clone_from(&document.name);
     args.methods.apply(&mut scene.methods);
     scene.notes.iter().for_each(|text| note(format_args!("note: {text}")));
-    let shader = shader(args, &document, &halfvector_scene::needs(&scene, ShaderOutput::Radiance))?;
+    let needs = halfvector_scene::needs(&scene, ShaderOutput::Radiance);
+    let chosen = choose(args, &document, &needs, &|needs| needs)?;
+    if let Some(chosen) = &chosen {
+        scene.methods = chosen.methods.clone();
+    }
+    let needs = Needs { methods: scene.methods.clone(), ..needs };
+    let shader = shader(args, &document, &needs, chosen.as_ref())?;
     let loaded = load(&scene.environment)?;
     let environment = loaded.map(|loaded| bake(&scene, &loaded));
     let text = halfvector_web::page(&scene, environment.as_ref()).map_err(|error| failed(args, error))?;
-    Ok((shader, vec![OutputFile { name: "index.html".to_owned(), bytes: text.into_bytes() }]))
+    let files = vec![OutputFile { name: "index.html".to_owned(), bytes: text.into_bytes() }];
+    Ok(Export { shader, files, chosen })
 }
 
 /// Puts the material in the place of the scene's first one, unless the scene has it.
@@ -136,8 +179,9 @@ fn wear(scene: &mut Scene, document: &Document, args: &ExportArgs) -> Result<(),
         .map_err(|error| Failure::input("an image could not be loaded").at(&args.document).because(error))
 }
 
-fn shader(args: &ExportArgs, document: &Document, needs: &Needs) -> Result<Shader, Failure> {
-    halfvector_codegen::shader(document, Library::standard(), needs, Fold::Export).map_err(|error| failed(args, error))
+fn shader(args: &ExportArgs, document: &Document, needs: &Needs, chosen: Option<&Chosen>) -> Result<Shader, Failure> {
+    let remarks = chosen.map_or_else(Vec::new, Chosen::remarks);
+    halfvector_codegen::explained(document, Library::standard(), needs, &remarks).map_err(|error| failed(args, error))
 }
 
 fn failed(args: &ExportArgs, error: impl std::fmt::Display) -> Failure {
@@ -163,10 +207,34 @@ fn file_stem(args: &ExportArgs) -> String {
     name.strip_suffix(".material").unwrap_or(name).to_owned()
 }
 
-fn explanation(shader: &Shader) -> serde_json::Value {
-    let dropped: Vec<_> =
-        shader.dropped.iter().map(|dropped| json!({ "what": dropped.what, "why": dropped.why })).collect();
-    json!({ "dropped": dropped })
+fn explanation(shader: &Shader, chosen: Option<&Chosen>) -> serde_json::Value {
+    let dropped: Vec<_> = shader
+        .dropped
+        .iter()
+        .map(|dropped| json!({ "what": dropped.what, "why": dropped.why, "instructions": dropped.instructions }))
+        .collect();
+    let methods: serde_json::Map<_, _> =
+        shader.methods.iter().map(|(term, method)| ((*term).to_owned(), json!(method))).collect();
+    let mut explanation = json!({
+        "dropped": dropped,
+        "instructions_are": "what each thing alone would add to both stages, estimated on the text as `check --cost` does",
+        "methods": methods,
+    });
+    if let Ok(cost) = halfvector_codegen::cost(shader) {
+        explanation["instructions"] = json!({ "vertex": cost.vertex.total(), "fragment": cost.fragment.total() });
+    }
+    if let Some(chosen) = chosen {
+        explanation["budget"] = chosen.json();
+    }
+    explanation
+}
+
+/// An error that can be asked for.
+fn parse_error(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(error) if error.is_finite() && error > 0.0 => Ok(error),
+        _ => Err("an error is a number over 0, such as 0.05 for 5 %".to_owned()),
+    }
 }
 
 fn parse_target(text: &str) -> Result<Wanted, String> {

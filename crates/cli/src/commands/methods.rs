@@ -44,6 +44,11 @@ enum Preset {
 }
 
 impl MethodChoice {
+    /// The terms that have a method by name.
+    pub(crate) fn terms(&self) -> Vec<&str> {
+        self.method.iter().map(|[term, _]| term.as_str()).collect()
+    }
+
     /// Replaces what was chosen on the command line.
     pub(crate) fn apply(&self, methods: &mut Methods) {
         match self.preset {

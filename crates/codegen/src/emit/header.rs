@@ -6,22 +6,49 @@ use halfvector_graph::needs::{Needs, ShaderOutput};
 
 use crate::emit::text::Text;
 use crate::names::comment;
-use crate::passes::specialise::Plan;
+use crate::passes::specialise::{Keep, Plan};
 use crate::reflection::LightKind;
+use crate::{Dropped, Remark};
 
 /// Widest line of the header.
 const WIDTH: usize = 118;
 
-pub(crate) fn header(document: &Document, plan: &Plan, needs: &Needs, text: &mut Text) {
+pub(crate) fn header(document: &Document, plan: &Plan, needs: &Needs, remarks: &[Remark], text: &mut Text) {
     paragraph("", &title(document), text);
     paragraph("serves: ", &serves(plan, needs), text);
     if plan.is_lit() {
-        paragraph("methods: ", &methods(plan, needs), text);
+        let chosen = methods(plan, needs).iter().map(|(term, method)| format!("{term}={method}")).collect::<Vec<_>>();
+        paragraph("methods: ", &chosen.join(", "), text);
     }
-    for dropped in &plan.dropped {
-        paragraph("left out: ", &format!("{}: {}", dropped.what, dropped.why), text);
+    for remark in remarks {
+        let words: Vec<String> = remark.text.split_whitespace().map(comment).collect();
+        paragraph(&format!("{}: ", remark.lead), &words.join(" "), text);
     }
+    left_out(&plan.dropped, text);
     text.line("");
+}
+
+/// What the shader does without. A lobe of weight 0 leaves no trace, not even its name: of those it is told what they save.
+fn left_out(dropped: &[Dropped], text: &mut Text) {
+    let (lobes, others): (Vec<_>, Vec<_>) = dropped.iter().partition(|one| matches!(one.kept_by, Keep::Lobe(_)));
+    for Dropped { what, why, instructions, .. } in others {
+        let saved = instructions.map_or_else(String::new, |count| match count {
+            1 => " (saves 1 instruction)".to_owned(),
+            _ => format!(" (saves {count} instructions)"),
+        });
+        paragraph("left out: ", &format!("{what}: {why}{saved}"), text);
+    }
+    let saved: Option<Vec<u32>> = lobes.iter().map(|one| one.instructions).collect();
+    if let Some(saved) = saved.filter(|saved| !saved.is_empty()) {
+        let (count, most, least) = (saved.len(), saved.iter().max(), saved.iter().min());
+        let range = match (least, most) {
+            (Some(least), Some(most)) if least < most => format!("{least} to {most} instructions each"),
+            (Some(least), _) => format!("{least} instructions"),
+            _ => return,
+        };
+        let (lobes, weights) = if count == 1 { ("lobe", "its weight is") } else { ("lobes", "their weights are") };
+        paragraph("left out: ", &format!("{count} {lobes}: {weights} 0 (saves {range})"), text);
+    }
 }
 
 pub(crate) fn material_header(document: &Document, text: &mut Text) {
@@ -64,7 +91,10 @@ fn serves(plan: &Plan, needs: &Needs) -> String {
 }
 
 /// The methods that this shader uses; the terms that it has no part of are left out.
-fn methods(plan: &Plan, needs: &Needs) -> String {
+pub(crate) fn methods(plan: &Plan, needs: &Needs) -> Vec<(&'static str, &'static str)> {
+    if !plan.is_lit() {
+        return Vec::new();
+    }
     let environment = plan.environment.is_some();
     let used = |term: &str| match term {
         "d" | "v" => ((plan.specular && !plan.anisotropy) || plan.coat) && !plan.lights.is_empty(),
@@ -88,7 +118,7 @@ fn methods(plan: &Plan, needs: &Needs) -> String {
         _ => false,
     };
     let chosen = TERMS.iter().filter(|term| used(term.name));
-    chosen.map(|term| format!("{}={}", term.name, needs.methods.get(term.name).name)).collect::<Vec<_>>().join(", ")
+    chosen.map(|term| (term.name, needs.methods.get(term.name).name)).collect()
 }
 
 /// A paragraph of comment lines, broken between words.

@@ -23,7 +23,7 @@ use crate::emit::text::{Origin, Text};
 use crate::ir::Program;
 use crate::link::{self, Index};
 use crate::passes::specialise::Plan;
-use crate::{CodegenError, Shader};
+use crate::{CodegenError, Remark, Shader};
 
 /// The whole shader: `vs_main` and `fs_main`.
 pub(crate) fn shader(
@@ -31,6 +31,7 @@ pub(crate) fn shader(
     plan: Plan,
     document: &Document,
     needs: &Needs,
+    remarks: &[Remark],
     index: &Index,
     names: &Names,
 ) -> Result<Shader, CodegenError> {
@@ -42,7 +43,7 @@ pub(crate) fn shader(
     let reflection = interface.reflection(&plan);
 
     let mut text = Text::default();
-    header::header(document, &plan, needs, &mut text);
+    header::header(document, &plan, needs, remarks, &mut text);
     interface::declarations(&reflection, &mut text);
     text.line("");
     interface::stage_structs(&reflection, &fragment_uses, &mut text);
@@ -51,7 +52,8 @@ pub(crate) fn shader(
     text.line("");
     text.append(&fragment);
     library(index, &[&vertex_uses, &fragment_uses], &needs.methods, &mut text);
-    Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: plan.dropped })
+    let methods = header::methods(&plan, needs);
+    Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: plan.dropped, methods })
 }
 
 /// The material alone: `material(context) -> Surface`.
@@ -81,7 +83,7 @@ pub(crate) fn material(
     text.line("");
     text.append(&body);
     library(index, &[&uses], methods, &mut text);
-    Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: Vec::new() })
+    Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: Vec::new(), methods: Vec::new() })
 }
 
 /// The library's items that the stages reach, by file.

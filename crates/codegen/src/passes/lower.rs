@@ -32,6 +32,8 @@ pub(crate) struct Lowering<'a, 't> {
     pub(crate) methods: &'t Methods,
     pub(crate) fold: Fold,
     pub(crate) stage: StageKind,
+    /// A socket of the surface whose number stays open, whatever is folded or wired to it.
+    pub(crate) open: Option<&'static str>,
     /// Expressions of the nodes met so far.
     calls: HashMap<usize, Id>,
     /// An expression to take in the place of a context.
@@ -46,7 +48,7 @@ impl<'a, 't> Lowering<'a, 't> {
         fold: Fold,
         stage: StageKind,
     ) -> Self {
-        Lowering { document, types, methods, fold, stage, calls: HashMap::new(), substitute: None }
+        Lowering { document, types, methods, fold, stage, open: None, calls: HashMap::new(), substitute: None }
     }
 
     /// From now on `context` is `id`; nodes that were met before are computed again.
@@ -166,11 +168,12 @@ impl<'a, 't> Lowering<'a, 't> {
                 )));
             }
         };
-        if let Some(Source::Input { node, input }) = self.types.sources[node][index] {
+        let is_open = node == self.types.surface && self.open == Some(def.name.as_str());
+        if let (Some(Source::Input { node, input }), false) = (self.types.sources[node][index], is_open) {
             let id = self.value(arena, table, node, input)?;
             return Ok(arena.convert(id, ty));
         }
-        if let Some(Source::Output { node: source, output }) = self.types.sources[node][index] {
+        if let (Some(Source::Output { node: source, output }), false) = (self.types.sources[node][index], is_open) {
             let from = &self.types.nodes[source];
             let output = &from.def.outputs[output];
             let call = self.calls[&source];
@@ -195,7 +198,7 @@ impl<'a, 't> Lowering<'a, 't> {
         };
         let parameter =
             self.document.parameters.iter().position(|p| p.socket.node == *info.id && p.socket.socket == def.name);
-        if self.fold == Fold::Export && parameter.is_none() {
+        if self.fold == Fold::Export && parameter.is_none() && !is_open {
             return Ok(arena.literal(ty, &components));
         }
         let input = table.input(node, index, || Input {
@@ -250,10 +253,12 @@ pub(crate) fn lower<'a>(
     index: &Index,
     methods: &Methods,
     fold: Fold,
+    open: Option<&'static str>,
 ) -> Result<Program<'a>, CodegenError> {
     let mut table = Table::default();
     let mut vertex = Stage::default();
-    let mut lowering = Lowering::new(document, types, methods, fold, StageKind::Vertex);
+    let lowered = |stage| Lowering { open, ..Lowering::new(document, types, methods, fold, stage) };
+    let mut lowering = lowered(StageKind::Vertex);
     if let Some(height) = lowering.input(&mut vertex.arena, &mut table, types.surface, "height")? {
         vertex.roots.insert("height", height);
     }
@@ -264,7 +269,7 @@ pub(crate) fn lower<'a>(
 
     let mut fragment = Stage::default();
     let derived_normal = varies && !methods.is("height_normals", "report");
-    let mut lowering = Lowering::new(document, types, methods, fold, StageKind::Fragment);
+    let mut lowering = lowered(StageKind::Fragment);
     for socket in SOCKETS.into_iter().filter(|s| !NORMALS.contains(s)) {
         if let Some(id) = lowering.input(&mut fragment.arena, &mut table, types.surface, socket)? {
             fragment.roots.insert(socket, id);

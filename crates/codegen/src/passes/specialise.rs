@@ -21,6 +21,9 @@ pub(crate) const COMPENSATION_MIN_F0: f32 = 0.08;
 /// A test computes it by quadrature.
 pub(crate) const COMPENSATION_BOUND_PERCENT: f32 = 0.7;
 
+/// What is left out of the shader of a surface that is no metal anywhere.
+pub(crate) const METAL: &str = "metal";
+
 /// What the fragment shader shades with.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan {
@@ -117,8 +120,40 @@ impl Plan {
         self.environment.is_some() && (self.diffuse || self.multiscatter || (self.sheen && !self.sheen_ring))
     }
 
-    pub(crate) fn drop_it(&mut self, what: &str, why: impl Into<String>) {
-        self.dropped.push(Dropped { what: what.to_owned(), why: why.into() });
+    pub(crate) fn drop_it(&mut self, what: &str, why: impl Into<String>, kept_by: Keep) {
+        self.dropped.push(Dropped { what: what.to_owned(), why: why.into(), instructions: None, kept_by });
+    }
+}
+
+/// What makes a shader hold something that another one does without, everything else being the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Keep {
+    /// A socket of the surface whose number stays open.
+    Socket(&'static str),
+    /// The same of a lobe's weight.
+    Lobe(&'static str),
+    /// Opacity, open and blended.
+    Opacity,
+    /// A light.
+    Light,
+    /// An environment.
+    Environment,
+    /// Another method of a term.
+    Method(&'static str, &'static str),
+    /// The compensation of any dielectric.
+    Compensation,
+    /// The fading of any normal's reflections at the horizon.
+    Horizon,
+}
+
+impl Keep {
+    /// The surface's socket that stays open.
+    pub(crate) fn socket(self) -> Option<&'static str> {
+        match self {
+            Keep::Socket(socket) | Keep::Lobe(socket) => Some(socket),
+            Keep::Opacity => Some("opacity"),
+            _ => None,
+        }
     }
 }
 
@@ -208,8 +243,9 @@ pub(crate) fn specialise(
     needs: &Needs,
     fold: Fold,
     constants: Constants,
+    keep: Option<Keep>,
 ) -> Plan {
-    let plan = decide(program, document, needs, fold, constants);
+    let plan = decide(program, document, needs, fold, constants, keep);
     let metal = metal(program, fold);
     let weightless = Known { program, fold }.surface("specular", 0.0);
     let full = Known { program, fold }.surface("specular", 1.0);
@@ -265,7 +301,14 @@ fn metal(program: &Program<'_>, fold: Fold) -> Metal {
     }
 }
 
-fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold, constants: Constants) -> Plan {
+fn decide(
+    program: &Program<'_>,
+    document: &Document,
+    needs: &Needs,
+    fold: Fold,
+    constants: Constants,
+    keep: Option<Keep>,
+) -> Plan {
     let known = Known { program, fold };
     let metal = metal(program, fold);
     let double_sided = document.surface.double_sided;
@@ -276,10 +319,11 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     plan.environment = needs.environment.map(|e| e.rotated);
     let lit = !plan.lights.is_empty() || plan.environment.is_some();
     if !lit {
-        plan.drop_it("lobes", "the scene has no light: only emission is left");
+        plan.drop_it("lobes", "the scene has no light: only emission is left", Keep::Light);
     }
     if plan.environment.is_none() {
-        plan.drop_it("environment light", "the scene has no environment: 2 cubes and their lookups saved");
+        let why = "the scene has no environment: 2 cubes and their lookups saved";
+        plan.drop_it("environment light", why, Keep::Environment);
     }
 
     let film = !absent(&known, "thin_film_weight");
@@ -287,23 +331,27 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     plan.thin_walled = plan.transmission && document.surface.thin_walled;
     plan.diffuse = lit && metal != Metal::Whole && !(plan.transmission && known.surface("transmission_weight", 1.0));
     if lit && !plan.diffuse {
-        plan.drop_it(
-            "diffuse lobe",
-            match metal {
-                Metal::Whole => "metallic is 1: a metal reflects nothing diffusely",
-                _ => "transmission_weight is 1: what enters the surface leaves it behind",
-            },
-        );
+        let (why, socket) = match metal {
+            Metal::Whole => ("metallic is 1: a metal reflects nothing diffusely", "metallic"),
+            _ => ("transmission_weight is 1: what enters the surface leaves it behind", "transmission_weight"),
+        };
+        plan.drop_it("diffuse lobe", why, Keep::Socket(socket));
     }
     let no_specular = metal == Metal::None && known.surface("specular", 0.0);
     plan.specular = lit && !no_specular;
     if lit && no_specular {
-        plan.drop_it("specular lobe", "specular is 0 and metallic is 0: its f0 and f90 are 0");
+        plan.drop_it(
+            "specular lobe",
+            "specular is 0 and metallic is 0: its f0 and f90 are 0",
+            Keep::Socket("specular"),
+        );
     }
     if lit && metal == Metal::None && plan.specular {
-        plan.drop_it("metal", "metallic is 0: f0 comes from the index of refraction alone");
+        plan.drop_it(METAL, "metallic is 0: f0 comes from the index of refraction alone", Keep::Socket("metallic"));
     }
-    if plan.specular && compensates(&mut plan, needs, constants.dielectric_f0.filter(|_| !film)) {
+    if plan.specular
+        && compensates(&mut plan, needs, constants.dielectric_f0.filter(|_| !film && keep != Some(Keep::Compensation)))
+    {
         plan.multiscatter = needs.methods.is("compensation", "kulla_conty");
         plan.compensation = !plan.multiscatter;
     }
@@ -317,7 +365,7 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
 
     plan.emission = !known.surface("emission", 0.0);
     if !plan.emission {
-        plan.drop_it("emission", "it is 0");
+        plan.drop_it("emission", "it is 0", Keep::Socket("emission"));
     }
     plan.anisotropy = plan.specular && !absent(&known, "anisotropy");
     plan.thin_film = plan.specular && !absent(&known, "thin_film_weight");
@@ -325,17 +373,34 @@ fn decide(program: &Program<'_>, document: &Document, needs: &Needs, fold: Fold,
     plan.coat = (lit || plan.emission) && !absent(&known, "coat_weight");
     plan.sheen = (lit || plan.emission) && !absent(&known, "sheen_color");
     plan.sheen_ring = plan.sheen && plan.environment.is_some() && needs.methods.is("sheen", "ring");
+    drop_lobes(&mut plan, &known, lit, metal);
     plan.occlusion = plan.environment.is_some() && plan.is_lit() && !known.surface("occlusion", 1.0);
     if plan.environment.is_some() && !plan.occlusion {
-        plan.drop_it("occlusion", "it is 1");
+        plan.drop_it("occlusion", "it is 1", Keep::Socket("occlusion"));
     }
-    decide_horizons(&mut plan, program, needs);
+    decide_horizons(&mut plan, program, needs, keep == Some(Keep::Horizon));
     decide_opacity(&mut plan, &known, document);
     decide_height(&mut plan, &known, needs, lit);
     let mirror = plan.environment.is_some() && (plan.specular || needs.methods.is("irradiance", "last_level"));
     let layered = plan.coat || plan.sheen || plan.transmission;
     plan.looks_at_view = plan.specular || mirror || layered || !needs.methods.is("diffuse", "lambert");
     plan
+}
+
+/// Says which lobes of the surface are off by their weight. Nothing passes through a metal, whatever its weight.
+fn drop_lobes(plan: &mut Plan, known: &Known<'_, '_>, lit: bool, metal: Metal) {
+    let lobes = [
+        ("coat", "coat_weight", plan.coat),
+        ("sheen", "sheen_color", plan.sheen),
+        ("transmission", "transmission_weight", plan.transmission || metal == Metal::Whole),
+        ("anisotropy", "anisotropy", plan.anisotropy),
+        ("thin film", "thin_film_weight", plan.thin_film),
+    ];
+    for (lobe, socket, _) in
+        lobes.into_iter().filter(|(_, socket, is_there)| lit && !is_there && known.surface(socket, 0.0))
+    {
+        plan.drop_it(lobe, format!("{socket} is 0"), Keep::Lobe(socket));
+    }
 }
 
 /// Whether a lobe is off: its socket is 0, or the surface node has no such socket.
@@ -346,7 +411,8 @@ fn absent(known: &Known<'_, '_>, socket: &str) -> bool {
 /// `fixed_f0` is the dielectric's when nothing can change it: no film either.
 fn compensates(plan: &mut Plan, needs: &Needs, fixed_f0: Option<f32>) -> bool {
     if needs.methods.is("compensation", "none") {
-        plan.drop_it("energy compensation", "the method is `none`: single scattering only");
+        let default = Keep::Method("compensation", "turquin");
+        plan.drop_it("energy compensation", "the method is `none`: single scattering only", default);
         return false;
     }
     match fixed_f0 {
@@ -357,6 +423,7 @@ fn compensates(plan: &mut Plan, needs: &Needs, fixed_f0: Option<f32>) -> bool {
                     "f0 is {f0:.3} and fixed: it would change radiance by less than {COMPENSATION_BOUND_PERCENT} % of that of a \
                      uniform environment"
                 ),
+                Keep::Compensation,
             );
             false
         }
@@ -365,17 +432,18 @@ fn compensates(plan: &mut Plan, needs: &Needs, fixed_f0: Option<f32>) -> bool {
 }
 
 /// Called before displacement is decided: a displaced surface's normal is that of its geometry.
-fn decide_horizons(plan: &mut Plan, program: &Program<'_>, needs: &Needs) {
+fn decide_horizons(plan: &mut Plan, program: &Program<'_>, needs: &Needs, keep: bool) {
     if plan.environment.is_none() {
         return;
     }
     let stage = &program.fragment;
     let mapped = |socket| stage.root(socket).is_some_and(|id| !stage.arena.is_context(id, "world_normal"));
     let fades = !program.derived_normal && !needs.methods.is("horizon", "none");
-    plan.horizon = plan.specular && mapped("normal") && fades;
+    plan.horizon = plan.specular && (mapped("normal") || keep) && fades;
     plan.coat_horizon = plan.coat && mapped("coat_normal") && fades;
     if plan.specular && !mapped("normal") {
-        plan.drop_it("horizon", "the shading normal is the geometry's: no reflection comes from below");
+        let why = "the shading normal is the geometry's: no reflection comes from below";
+        plan.drop_it("horizon", why, Keep::Horizon);
     }
 }
 
@@ -387,20 +455,21 @@ fn decide_opacity(plan: &mut Plan, known: &Known<'_, '_>, document: &Document) {
         _ => return,
     };
     plan.alpha_mode = AlphaMode::Opaque;
-    plan.drop_it("opacity", why);
+    plan.drop_it("opacity", why, Keep::Opacity);
 }
 
 fn decide_height(plan: &mut Plan, known: &Known<'_, '_>, needs: &Needs, lit: bool) {
     plan.height = known.program.vertex.root("height").is_some() && !known.is(&known.program.vertex, "height", 0.0);
     if !plan.height {
-        plan.drop_it("displacement", "height is 0");
+        plan.drop_it("displacement", "height is 0", Keep::Socket("height"));
         return;
     }
     plan.derived_normal = lit && known.program.derived_normal;
     if needs.methods.is("height_normals", "report") {
-        plan.drop_it("normals of the displaced surface", "the method is `report`: the old normal is kept");
+        let why = "the method is `report`: the old normal is kept";
+        plan.drop_it("normals of the displaced surface", why, Keep::Method("height_normals", "derived"));
     } else if !known.program.derived_normal {
-        plan.drop_it("normals of the displaced surface", "height is the same everywhere");
+        plan.drop_it("normals of the displaced surface", "height is the same everywhere", Keep::Socket("height"));
     }
 }
 

@@ -64,10 +64,16 @@ fn write(
             glsl::Writer::new(&mut text, &alone.module, &alone.info, &options, &pipeline, policies).map_err(fail)?;
         let info = writer.write().map_err(fail)?;
         details.insert(ending.into(), names(&alone.module, &info));
-        files.push(file(format!("{name}.{ending}"), text));
+        files.push(file(format!("{name}.{ending}"), headed(&text, source.shader.header())));
     }
     files.push(json::reflection(source, name, target, Some(("glsl", Value::Object(details)))));
     Ok(files)
+}
+
+/// The text with the comment: after the version, which GLSL ES wants in the first line.
+fn headed(text: &str, header: &str) -> String {
+    let version = text.find('\n').map_or(0, |end| end + 1);
+    format!("{}{header}{}", &text[..version], &text[version..])
 }
 
 /// What the blocks and joined samplers of a stage are called, in order of names.

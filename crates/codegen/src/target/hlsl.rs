@@ -45,6 +45,7 @@ fn write(source: &Source<'_>, name: &str) -> Result<Vec<OutputFile>, ExportError
     if text.contains("nagaSamplerHeap") || text.matches(": register(s").count() != samplers.len() {
         return Err(fail("naga's form of samplers is not the one that is known here".into()));
     }
+    let text = format!("{}{text}", source.shader.header());
     Ok(vec![file(format!("{name}.hlsl"), text), json::reflection(source, name, TARGET.name, None)])
 }
 

@@ -28,7 +28,13 @@ pub(super) fn reflection(source: &Source<'_>, name: &str, target: &str, details:
     root.insert("parameters".into(), reflection.parameters.iter().map(parameter).collect());
     root.insert("alpha_mode".into(), json!(reflection.alpha_mode.name()));
     root.insert("double_sided".into(), json!(reflection.double_sided));
-    let left_out = source.shader.dropped.iter().map(|d| json!({ "what": d.what, "why": d.why }));
+    let left_out = source.shader.dropped.iter().map(|d| {
+        let mut entry = json!({ "what": d.what, "why": d.why });
+        if let Some(count) = d.instructions {
+            entry["instructions"] = json!(count);
+        }
+        entry
+    });
     root.insert("left_out".into(), left_out.collect());
     if target == "wgsl" {
         // Other targets have other lines.

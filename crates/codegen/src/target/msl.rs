@@ -48,6 +48,7 @@ fn write(source: &Source<'_>, name: &str) -> Result<Vec<OutputFile>, ExportError
     for entry_point in info.entry_point_names {
         entry_point.map_err(|e| fail(e.to_string()))?;
     }
+    let text = format!("{}{text}", source.shader.header());
     let details = ("metal", Value::Object(numbers));
     Ok(vec![file(format!("{name}.metal"), text), json::reflection(source, name, TARGET.name, Some(details))])
 }

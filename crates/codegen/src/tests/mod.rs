@@ -2,6 +2,7 @@
 
 mod cost;
 mod custom;
+mod explain;
 mod figures;
 mod folding;
 mod groups;

@@ -1,0 +1,114 @@
+//! What is left out is told with what it saves, in the comment, too.
+
+use halfvector_graph::document::Document;
+use halfvector_graph::library::Library;
+use halfvector_graph::needs::Needs;
+
+use super::{environment, exported, maps, material, methods, nothing, sun, with_parameters};
+use crate::target::{export, target};
+use crate::{Remark, Shader, cost, explained, validate};
+
+fn told(document: &Document, needs: &Needs) -> Shader {
+    let shader = explained(document, Library::standard(), needs, &[]).unwrap_or_else(|e| panic!("{e}"));
+    validate(&shader).unwrap_or_else(|e| panic!("{e}\n{}", shader.wgsl));
+    shader
+}
+
+fn total(shader: &Shader) -> u32 {
+    let cost = cost(shader).unwrap_or_else(|e| panic!("{e}"));
+    cost.vertex.total() + cost.fragment.total()
+}
+
+fn saved(shader: &Shader, what: &str) -> u32 {
+    let dropped = shader.dropped.iter().find(|dropped| dropped.what == what);
+    dropped.unwrap_or_else(|| panic!("{what}")).instructions.unwrap_or_else(|| panic!("{what} is not counted"))
+}
+
+/// A parameter on a socket keeps it open: what that costs is what leaving it out saves.
+#[test]
+fn a_lobe_saves_what_an_open_one_costs() {
+    for needs in [sun(), environment()] {
+        let shader = told(&material("", "", ""), &needs);
+        for (what, socket) in [
+            ("coat", "coat_weight"),
+            ("sheen", "sheen_color"),
+            ("transmission", "transmission_weight"),
+            ("anisotropy", "anisotropy"),
+            ("thin film", "thin_film_weight"),
+            ("emission", "emission"),
+        ] {
+            let parameter = format!(r#"{{"name": "{socket}", "socket": "surface.{socket}"}}"#);
+            let open = exported(&with_parameters("", "", "", &parameter), &needs);
+            assert_eq!(saved(&shader, what), total(&open) - total(&shader), "{what}");
+        }
+        assert!(saved(&shader, "coat") > 30 && saved(&shader, "metal") > 0, "{:?}", shader.dropped);
+    }
+}
+
+/// Whatever is left out is counted, in every kind of shader; but the header the text is the one that is not explained.
+#[test]
+fn everything_left_out_is_counted() {
+    let bare = Needs { methods: methods(&[("compensation", "none"), ("height_normals", "report")]), ..environment() };
+    let waves = r#""noise": {"node": "procedural/value_noise_2d"}"#;
+    let high = material("", waves, r#"{"from": "noise.out", "to": "surface.height"}"#);
+    for document in [material("", "", ""), maps(), material(r#""metallic": 1"#, "", ""), high] {
+        for needs in [nothing(), sun(), environment(), bare.clone()] {
+            let (plain, shader) = (exported(&document, &needs), told(&document, &needs));
+            for dropped in &shader.dropped {
+                assert!(dropped.instructions.is_some(), "{dropped:?}");
+            }
+            assert_eq!(plain.wgsl[plain.header().len()..], shader.wgsl[shader.header().len()..]);
+            let counted = shader.wgsl.matches("(saves ").count();
+            assert!(counted > 1 && !plain.wgsl.contains("(saves "), "{}", shader.header());
+        }
+    }
+    let metal = told(&material(r#""metallic": 1"#, "", ""), &environment());
+    for what in ["diffuse lobe", "horizon", "occlusion", "displacement"] {
+        assert!(saved(&metal, what) > 0, "{what}");
+    }
+    let single = told(&material(r#""metallic": 1"#, "", ""), &bare);
+    assert!(saved(&single, "energy compensation") > 0);
+    assert!(saved(&told(&material("", "", ""), &sun()), "energy compensation") > 0);
+}
+
+/// `coat = 0.5 * 0 * noise` leaves no word of it in the text, and is told beside.
+#[test]
+fn what_a_product_with_zero_switches_off_leaves_no_trace() {
+    let document = material(
+        "",
+        r#""noise": {"node": "procedural/value_noise_2d"},
+           "none": {"node": "math/multiply", "values": {"b": 0}}, "half": {"node": "math/multiply", "values": {"b": 0.5}}"#,
+        r#"{"from": "noise.out", "to": "none.a"}, {"from": "none.out", "to": "half.a"},
+           {"from": "half.out", "to": "surface.coat_weight"}"#,
+    );
+    let shader = told(&document, &sun());
+    for word in ["coat", "noise", "sheen", "film"] {
+        assert!(!shader.wgsl.contains(word), "{word}: {}", shader.wgsl);
+    }
+    assert!(saved(&shader, "coat") > 30);
+    assert!(shader.header().contains("// left out: 5 lobes: their weights are 0 (saves "), "{}", shader.header());
+}
+
+/// What is remarked stands in the comment of every language that has comments, and stays in it.
+#[test]
+fn remarks_stand_in_the_comment() {
+    let long = "word ".repeat(60);
+    let remarks = [
+        Remark { lead: "budget", text: format!("0.05 is kept*/\n}} fn hacked() {{}} \\\nand {long}end") },
+        Remark { lead: "chosen", text: "v=hammon".into() },
+    ];
+    let shader = explained(&maps(), Library::standard(), &sun(), &remarks).unwrap_or_else(|e| panic!("{e}"));
+    validate(&shader).unwrap_or_else(|e| panic!("{e}\n{}", shader.wgsl));
+    let header = shader.header();
+    assert!(header.contains("// budget: 0.05 is kept* / }") && header.contains("// chosen: v=hammon\n"), "{header}");
+    assert!(header.contains("end\n") && !header.contains("*/") && !header.contains('\\'), "{header}");
+    assert!(header.lines().all(|line| line.starts_with("//") && line.chars().count() <= 118), "{header}");
+    for (name, first) in [("glsl", 1), ("glsl-es", 1), ("hlsl", 0), ("msl", 0)] {
+        let files = export(&shader, target(name).expect("a target of the list"), "m").expect("files");
+        for file in files.iter().filter(|file| !file.name.ends_with(".json")) {
+            let text = String::from_utf8_lossy(&file.bytes);
+            let lines: Vec<&str> = text.lines().skip(first).take(header.lines().count()).collect();
+            assert_eq!(lines, header.lines().collect::<Vec<_>>(), "{name}");
+        }
+    }
+}
