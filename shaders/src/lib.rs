@@ -188,6 +188,7 @@ pub const FILES: &[File] = files![
     "nodes/procedural/white_noise.wgsl",
     "nodes/procedural/wood.wgsl",
     "nodes/procedural/worley.wgsl",
+    "nodes/surface/mix.wgsl",
     "nodes/surface/surface.wgsl",
     "nodes/textures/bump.wgsl",
     "nodes/textures/detail.wgsl",

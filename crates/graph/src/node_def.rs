@@ -86,6 +86,8 @@ pub enum Default {
     Context(String),
     /// Nothing: a texture must be chosen. The colour space is the one that a new image gets.
     Image(crate::value::ColorSpace),
+    /// Nothing: a surface must be linked.
+    Surface,
 }
 
 /// An output socket.

@@ -124,7 +124,7 @@ impl Node {
                     row.extend((0..*width).map(|i| components[i.min(components.len() - 1)]));
                 }
                 Default::Context(name) => row.extend_from_slice(context(name)),
-                Default::Image(_) => {}
+                Default::Image(_) | Default::Surface => {}
             }
         }
         row

@@ -178,7 +178,8 @@ impl<'w, 'a> Writer<'w, 'a> {
     fn line(&mut self, entry: &Entry<'a>, text: &str, namer: &mut Namer<'_>) -> String {
         let info = entry.node.map(|node| &self.program.nodes[node]);
         let name = match info {
-            Some(info) => namer.name(info.label, info.id),
+            Some(info) if entry.hint.is_empty() => namer.name(info.label, info.id),
+            Some(info) => namer.name(&format!("{} {}", info.label, entry.hint), &format!("{} {}", info.id, entry.hint)),
             None => namer.name(entry.hint, "value"),
         };
         let (origin, beside) = match info {

@@ -3,15 +3,12 @@
 use halfvector_shaders::ItemKind;
 
 use super::grammar::{self, ArgumentDoc, DefaultDoc, NodeDoc};
-use super::signature::{ArgumentType, ResultType, Signature, Signatures};
+use super::signature::{ArgumentType, ResultType, SURFACE_STRUCT, Signature, Signatures};
 use super::{LibraryProblem, Source, line_of};
 use crate::context::context;
 use crate::method::term;
 use crate::node_def::{Argument, Default, Function, Input, NodeDef, Output, REROUTE};
 use crate::value::{SocketType, Type, Value};
-
-/// The struct whose value a material is.
-const SURFACE_STRUCT: &str = "Surface";
 
 /// Reads the nodes of a file. Names of functions that are nodes or stand in for one go to `taken`.
 pub(super) fn read_nodes(
@@ -162,7 +159,7 @@ impl Reader<'_> {
                 (ArgumentType::Other, _) => self.slip(
                     doc.line,
                     format!(
-                        "no socket has the type of `{name}`; arguments are bool, i32, f32, vec2f, vec3f, vec4f, T, or texture_2d<f32> with its sampler"
+                        "no socket has the type of `{name}`; arguments are bool, i32, f32, vec2f, vec3f, vec4f, T, Surface, or texture_2d<f32> with its sampler"
                     ),
                 ),
             }
@@ -177,12 +174,17 @@ impl Reader<'_> {
         {
             self.slip(line, format!("the default of `{name}` lies outside its range"));
         }
-        if argument.range.is_some() && matches!(ty, SocketType::Texture | SocketType::Value(Type::Bool)) {
+        if argument.range.is_some()
+            && matches!(ty, SocketType::Texture | SocketType::Surface | SocketType::Value(Type::Bool))
+        {
             self.slip(line, format!("`{name}` has no range: it is no number"));
         }
         let default = match (&argument.default, ty) {
             (DefaultDoc::Image(space), SocketType::Texture) => Ok(Default::Image(*space)),
             (_, SocketType::Texture) => Err("a texture's default is `image srgb` or `image linear`".into()),
+            (DefaultDoc::Surface, SocketType::Surface) => Ok(Default::Surface),
+            (_, SocketType::Surface) => Err("a surface's default is `surface`: it must be linked".into()),
+            (DefaultDoc::Surface, _) => Err("only a surface has `surface` as default".into()),
             (DefaultDoc::Image(_), _) => Err("only a texture has an image as default".into()),
             (DefaultDoc::Context(given), SocketType::Value(ty)) => match context(given) {
                 Some(context) if context.ty == ty => Ok(Default::Context(given.clone())),
