@@ -188,6 +188,8 @@ pub const FILES: &[File] = files![
     "nodes/procedural/white_noise.wgsl",
     "nodes/procedural/wood.wgsl",
     "nodes/procedural/worley.wgsl",
+    "nodes/spaces/object.wgsl",
+    "nodes/spaces/view.wgsl",
     "nodes/surface/mix.wgsl",
     "nodes/surface/surface.wgsl",
     "nodes/textures/bump.wgsl",

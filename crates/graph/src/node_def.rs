@@ -56,6 +56,8 @@ pub enum Argument {
     Input(String),
     /// The sampler of the texture input with this name.
     Sampler(String),
+    /// A transform between spaces; see [`crate::context::FRAMES`].
+    Frame(&'static str),
 }
 
 /// An input socket.

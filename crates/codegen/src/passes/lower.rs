@@ -119,7 +119,14 @@ impl<'a, 't> Lowering<'a, 't> {
         }
         let mut arguments = Vec::with_capacity(function.arguments.len());
         for argument in &function.arguments {
-            let (Argument::Input(name) | Argument::Sampler(name)) = argument;
+            let name = match argument {
+                Argument::Input(name) | Argument::Sampler(name) => name,
+                Argument::Frame(frame) => {
+                    let expr = Expr::Frame(frame);
+                    arguments.push(arena.push(Entry { expr, ty: Ty::Resource, node: None, hint: "" }));
+                    continue;
+                }
+            };
             let Some(index) = info.def.inputs.iter().position(|i| i.name == *name) else {
                 return Err(CodegenError::Library(format!(
                     "the function `{}` takes `{name}`, which is no input of `{}`",

@@ -5,7 +5,7 @@ use halfvector_shaders::ItemKind;
 use super::grammar::{self, ArgumentDoc, DefaultDoc, NodeDoc};
 use super::signature::{ArgumentType, ResultType, SURFACE_STRUCT, Signature, Signatures};
 use super::{LibraryProblem, Source, line_of};
-use crate::context::context;
+use crate::context::{FRAMES, context, frame};
 use crate::method::term;
 use crate::node_def::{Argument, Default, Function, Input, NodeDef, Output, REROUTE};
 use crate::value::{SocketType, Type, Value};
@@ -156,6 +156,14 @@ impl Reader<'_> {
                 (ArgumentType::Sampler, Some(described)) => {
                     self.slip(described.line, "a sampler goes with its texture and has no line");
                 }
+                (ArgumentType::Matrix, None) if frame(name).is_some() => {}
+                (ArgumentType::Matrix, Some(described)) if frame(name).is_some() => {
+                    self.slip(described.line, "a transform between spaces is no socket and has no line");
+                }
+                (ArgumentType::Matrix, _) => {
+                    let known: Vec<&str> = FRAMES.iter().map(|f| f.name).collect();
+                    self.slip(doc.line, format!("`{name}` is no transform between spaces; there are {}", known.join(", ")));
+                }
                 (ArgumentType::Other, _) => self.slip(
                     doc.line,
                     format!(
@@ -264,6 +272,9 @@ impl Reader<'_> {
                     }
                     _ => self.slip(line, format!("the sampler `{name}` belongs to no texture of the node")),
                 },
+                ArgumentType::Matrix if frame(name).is_some() => {
+                    arguments.extend(frame(name).map(|frame| Argument::Frame(frame.name)));
+                }
                 ArgumentType::Socket(ty) if input(name).is_some_and(|input| input.ty == *ty) => {
                     arguments.push(Argument::Input(name.clone()));
                 }

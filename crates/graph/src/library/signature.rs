@@ -22,6 +22,8 @@ pub(super) const SURFACE_STRUCT: &str = "Surface";
 pub(super) enum ArgumentType {
     Socket(SocketType),
     Sampler,
+    /// `mat4x4f`
+    Matrix,
     /// One that no socket has.
     Other,
 }
@@ -225,6 +227,9 @@ fn argument_type(ty: &naga::Type) -> ArgumentType {
         TypeInner::Vector { size: VectorSize::Tri, scalar: Scalar::F32 } => Type::Vec3,
         TypeInner::Vector { size: VectorSize::Quad, scalar: Scalar::F32 } => Type::Vec4,
         TypeInner::Sampler { comparison: false } => return ArgumentType::Sampler,
+        TypeInner::Matrix { columns: VectorSize::Quad, rows: VectorSize::Quad, scalar: Scalar::F32 } => {
+            return ArgumentType::Matrix;
+        }
         TypeInner::Image {
             dim: ImageDimension::D2,
             arrayed: false,
