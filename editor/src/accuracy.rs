@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use eframe::egui;
-use halfvector_graph::check::surface_node;
+use halfvector_graph::check::mixed_surfaces;
 use halfvector_graph::document::{Document, SocketRef};
 use halfvector_graph::library::Library;
 use halfvector_graph::method::TERMS;
@@ -210,13 +210,15 @@ impl Bench {
         let mut furnace =
             Furnace { image: coded(&picture, display), reflected: reflected(&picture), by_roughness: Vec::new() };
         let library = Library::standard();
-        let surface = surface_node(&job.document, library).map(str::to_owned);
+        let surfaces = mixed_surfaces(&job.document, library);
         const STEPS: u8 = 8;
         for step in 0..STEPS {
-            let (Some(surface), false) = (&surface, stale.is_stale()) else { break };
+            if surfaces.is_empty() || stale.is_stale() {
+                break;
+            }
             outbox.send(Told::Progress("Over the roughness".to_owned(), f32::from(step) / f32::from(STEPS)));
             let roughness = f32::from(step) / f32::from(STEPS - 1);
-            shot.document = Arc::new(with_roughness(&job.document, surface, roughness));
+            shot.document = Arc::new(with_roughness(&job.document, &surfaces, roughness));
             let mean = reflected(&self.draw(&shot, 2)?)[1];
             furnace.by_roughness.push([f64::from(roughness), mean]);
         }
@@ -250,12 +252,14 @@ fn reflected(picture: &Picture) -> [f64; 3] {
 }
 
 /// The document with one roughness all over.
-fn with_roughness(document: &Document, surface: &str, roughness: f32) -> Document {
+fn with_roughness(document: &Document, surfaces: &[&str], roughness: f32) -> Document {
     let mut document = document.clone();
-    let socket = SocketRef::new(surface, "perceptual_roughness");
-    document.graph.links.retain(|link| link.to != socket);
-    if let Some(node) = document.graph.nodes.get_mut(surface) {
-        node.values.insert(socket.socket, Value::Number(roughness));
+    for surface in surfaces {
+        let socket = SocketRef::new(surface, "perceptual_roughness");
+        document.graph.links.retain(|link| link.to != socket);
+        if let Some(node) = document.graph.nodes.get_mut(*surface) {
+            node.values.insert(socket.socket, Value::Number(roughness));
+        }
     }
     document
 }

@@ -328,6 +328,13 @@ impl Session {
         self.saved = Some(document);
     }
 
+    /// A session with the material that an instance in a folder stands for. It has no file: written over the instance it would
+    /// end being one.
+    pub(crate) fn of_instance(document: Document, folder: &Path) -> Session {
+        let moved = with_images_moved(&document, folder, Path::new(""));
+        Session::of(moved.unwrap_or(document), None)
+    }
+
     /// The document as it is to stand in a file of this folder: image paths mean the same files there.
     pub(crate) fn document_for(&self, folder: &Path) -> Arc<Document> {
         with_images_moved(&self.document, &self.directory(), folder).map_or_else(|| self.document.clone(), Arc::new)

@@ -37,7 +37,7 @@ pub(crate) fn kind(path: &Path) -> Result<Kind, Failure> {
     })?;
     match serde_json::from_slice::<serde_json::Value>(&bytes) {
         Ok(serde_json::Value::Object(fields)) => {
-            if fields.contains_key("nodes") {
+            if fields.contains_key("nodes") || fields.contains_key("base") {
                 return Ok(Kind::Material);
             }
             if ["mesh", "objects", "model", "camera", "environment"].iter().any(|field| fields.contains_key(*field)) {
@@ -58,7 +58,7 @@ pub(crate) fn kind(path: &Path) -> Result<Kind, Failure> {
     by_name(path).ok_or_else(|| {
         Failure::input("the file is neither a material nor a scene")
             .at(path)
-            .because("it has neither `nodes`, as materials have, nor `mesh` or `objects`, as scenes have")
+            .because("it has neither `nodes` or `base`, as materials have, nor `mesh` or `objects`, as scenes have")
             .try_to("a *.material.json or *.scene.json file; examples/ has some")
     })
 }
@@ -90,7 +90,9 @@ pub(crate) fn material(path: &Path) -> Result<Document, Failure> {
     halfvector_graph::file::load(path).map_err(|error| {
         use halfvector_graph::file::FileError;
         let (why, remedy) = match &error {
-            FileError::InFile { source, .. } => (source.to_string(), "correct the file there, or save it again"),
+            FileError::InFile { path: at, source } if at == path => {
+                (source.to_string(), "correct the file there, or save it again")
+            }
             FileError::Read { source, .. } => (source.to_string(), "another file name"),
             other => (other.to_string(), "correct the file"),
         };

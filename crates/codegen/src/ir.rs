@@ -60,6 +60,8 @@ pub(crate) enum Expr<'a> {
     Input(usize),
     /// What the shader knows of the point.
     Context(&'static str),
+    /// A transform between spaces.
+    Frame(&'static str),
     /// A texture: index into [`Program::images`].
     Texture(usize),
     /// The sampler of a texture.
@@ -80,7 +82,7 @@ pub(crate) enum Ty {
     Value(Type),
     /// A struct that a call returned.
     Struct,
-    /// A texture or sampler.
+    /// A texture, a sampler or a transform between spaces.
     Resource,
 }
 

@@ -160,8 +160,12 @@ pub enum UniformSource {
     Lights(LightKind),
     /// An input of a node; the value is the document's.
     Input(SocketRef),
+    /// View from world: the viewer at the origin, +x right, +y up, looking along -z.
+    ViewFromWorld,
     /// World from object.
     WorldFromObject,
+    /// Object from world; zero where the object is scaled flat.
+    ObjectFromWorld,
     /// The upper 3x3's cofactor matrix times the sign of its determinant, that is |det| (M^-1)^T: takes normals to
     /// world space, outward ones to outward ones. Where the determinant is negative the renderer also swaps which
     /// winding is the front.

@@ -12,6 +12,8 @@ use crate::reflection::{LightKind, UniformBlock, UniformSource, UniformType};
 pub struct FrameValues {
     /// Clip space of the tile from world space, column by column.
     pub clip_from_world: [f32; 16],
+    /// View space from world space, column by column; see [`UniformSource::ViewFromWorld`].
+    pub view_from_world: [f32; 16],
     /// In world space.
     pub camera_position: [f32; 3],
     /// Seconds.
@@ -33,6 +35,8 @@ pub struct FrameValues {
 pub struct ObjectValues {
     /// World from object space, column by column.
     pub world_from_object: [f32; 16],
+    /// The way back, column by column; zero where there is none.
+    pub object_from_world: [f32; 16],
     /// Takes normals to world space, column by column; see [`UniformSource::NormalFromObject`].
     pub normal_from_object: [f32; 9],
 }
@@ -42,6 +46,7 @@ impl FrameValues {
     pub fn fill(&self, source: &UniformSource, numbers: &mut Vec<f32>) {
         match source {
             UniformSource::ClipFromWorld => numbers.extend(self.clip_from_world),
+            UniformSource::ViewFromWorld => numbers.extend(self.view_from_world),
             UniformSource::CameraPosition => numbers.extend(self.camera_position),
             UniformSource::Time => numbers.push(self.time),
             UniformSource::Exposure => numbers.push(self.exposure),
@@ -51,7 +56,10 @@ impl FrameValues {
             UniformSource::Lights(LightKind::Directional) => numbers.extend(&self.lights[0]),
             UniformSource::Lights(LightKind::Point) => numbers.extend(&self.lights[1]),
             UniformSource::Lights(LightKind::Spot) => numbers.extend(&self.lights[2]),
-            UniformSource::Input(_) | UniformSource::WorldFromObject | UniformSource::NormalFromObject => {}
+            UniformSource::Input(_)
+            | UniformSource::WorldFromObject
+            | UniformSource::ObjectFromWorld
+            | UniformSource::NormalFromObject => {}
         }
     }
 }
@@ -61,6 +69,7 @@ impl ObjectValues {
     pub fn fill(&self, source: &UniformSource, numbers: &mut Vec<f32>) {
         match source {
             UniformSource::WorldFromObject => numbers.extend(self.world_from_object),
+            UniformSource::ObjectFromWorld => numbers.extend(self.object_from_world),
             UniformSource::NormalFromObject => numbers.extend(self.normal_from_object),
             _ => {}
         }

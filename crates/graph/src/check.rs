@@ -17,7 +17,7 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::FORMAT_VERSION;
-use crate::document::{AlphaMode, Document, Graph, NodeId, function_of};
+use crate::document::{AlphaMode, Document, Graph, Link, NodeId, function_of};
 use crate::flatten::{self, Flat, FlattenError, find, flatten};
 use crate::group::{Extents, extents};
 use crate::library::Library;
@@ -99,14 +99,14 @@ pub fn check(document: &Document, library: &Library) -> Vec<Problem> {
     let mut live: Vec<String> = checker.live.iter().map(|id| id.to_string()).collect();
     live.sort_unstable();
     let extents = extents(document);
-    if let [surface] = surfaces.as_slice() {
+    if surfaces.len() == 1 {
         checker.size(&live, &extents);
         match flatten(document, library) {
             Ok(Flat { document: Cow::Owned(flat), library }) => {
-                checker.problems.extend(in_stages(document, &flat, &library, surface));
+                checker.problems.extend(in_stages(document, &flat, &library));
             }
             // What is wrong with groups is told with them; the top level is looked at by itself.
-            _ => stages::check(&mut checker, surface),
+            _ => stages::check(&mut checker),
         }
     }
     let mut problems = checker.problems;
@@ -115,11 +115,11 @@ pub fn check(document: &Document, library: &Library) -> Vec<Problem> {
 }
 
 /// Problems of stages where groups are taken apart, told of the places where the user sees them.
-fn in_stages(document: &Document, flat: &Document, library: &Library, surface: &str) -> Vec<Problem> {
+fn in_stages(document: &Document, flat: &Document, library: &Library) -> Vec<Problem> {
     let wiring = Wiring::new(&flat.graph);
     let mut checker = Checker::new(flat, &flat.graph, library, &wiring);
     checker.live = flat.graph.nodes.keys().map(String::as_str).collect();
-    stages::check(&mut checker, surface);
+    stages::check(&mut checker);
     let mut problems = checker.problems;
     for problem in &mut problems {
         if let Some((group, node, _)) = problem.node.as_deref().and_then(|path| find(document, path)) {
@@ -145,11 +145,37 @@ pub fn node_label(graph: &Graph, library: &Library, id: &str) -> String {
         .unwrap_or_else(|| id.into())
 }
 
-/// The ids of the document's surface nodes.
+/// The ids of the document's surface nodes: those that give a surface to no other one that mixes it.
 pub(crate) fn surface_nodes<'d>(document: &'d Document, library: &Library) -> Vec<&'d str> {
-    let is_surface = |def: &NodeDef| def.outputs.iter().any(|output| output.ty == SocketType::Surface);
-    let known = document.graph.nodes.iter().filter_map(|(id, node)| Some((id.as_str(), library.get(&node.node)?)));
-    known.filter(|(_, def)| is_surface(def)).map(|(id, _)| id).collect()
+    let def = |id: &str| library.get(&document.graph.nodes.get(id)?.node);
+    let takes = |link: &&Link| {
+        def(&link.to.node).is_some_and(|def| {
+            def.inputs.iter().any(|input| input.ty == SocketType::Surface && input.name == link.to.socket)
+        })
+    };
+    let mixed: HashSet<&str> = document.graph.links.iter().filter(takes).map(|link| link.from.node.as_str()).collect();
+    let ids = document.graph.nodes.keys().map(String::as_str);
+    ids.filter(|id| !mixed.contains(id) && def(id).is_some_and(gives_surface)).collect()
+}
+
+/// The ids of the surfaces that the document's surface is mixed of: the surface node itself where nothing is mixed. Sorted;
+/// empty when the document has not exactly one surface.
+pub fn mixed_surfaces<'d>(document: &'d Document, library: &Library) -> Vec<&'d str> {
+    let Some(root) = surface_node(document, library) else { return Vec::new() };
+    let mut ids = Wiring::new(&document.graph).order(&[root]).unwrap_or_default();
+    ids.retain(|id| is_unmixed(&document.graph, library, id));
+    ids.sort_unstable();
+    ids
+}
+
+fn gives_surface(def: &NodeDef) -> bool {
+    def.outputs.iter().any(|output| output.ty == SocketType::Surface)
+}
+
+/// Whether a node is a surface that is not mixed of others.
+fn is_unmixed(graph: &Graph, library: &Library, id: &str) -> bool {
+    let def = graph.nodes.get(id).and_then(|node| library.get(&node.node));
+    def.is_some_and(|def| gives_surface(def) && def.inputs.iter().all(|input| input.ty != SocketType::Surface))
 }
 
 struct Checker<'a> {
@@ -326,16 +352,26 @@ impl<'a> Checker<'a> {
                 self.live = all();
                 for other in others {
                     let message = format!(
-                        "a material has one surface node; this one is beside \u{201c}{}\u{201d}: remove one",
+                        "a material has one surface node; this one is beside \u{201c}{}\u{201d}: remove one, or mix them",
                         self.label(first)
                     );
                     self.at(Severity::Error, other, None, message);
                 }
             }
         }
-        if let [surface] = surfaces {
-            self.opacity(surface);
+        if surfaces.len() == 1 {
+            for surface in self.parts() {
+                self.opacity(surface);
+            }
         }
+    }
+
+    /// The live surfaces that are not mixed of others, sorted.
+    fn parts(&self) -> Vec<&'a str> {
+        let mut parts: Vec<&str> =
+            self.live.iter().copied().filter(|id| is_unmixed(self.graph, self.library, id)).collect();
+        parts.sort_unstable();
+        parts
     }
 
     fn opacity(&mut self, surface: &str) {

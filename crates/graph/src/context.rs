@@ -1,5 +1,5 @@
 //! What a shader can know of the point that it shades: the one list of contexts. A context that no live node names
-//! becomes no varying, uniform or attribute.
+//! becomes no varying, uniform or attribute. And the transforms between spaces, of which the same holds.
 
 use crate::value::Type;
 
@@ -61,4 +61,29 @@ pub const CONTEXTS: &[Context] = &[
 /// The context with this name.
 pub fn context(name: &str) -> Option<&'static Context> {
     CONTEXTS.iter().find(|c| c.name == name)
+}
+
+/// A transform between spaces. A function of the library takes it as an argument of this name, of the type `mat4x4f`; it is
+/// no socket, for no wire carries a matrix.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Name in shaders.
+    pub name: &'static str,
+    /// What it does.
+    pub help: &'static str,
+}
+
+/// All frames. Both stages have them; one that no live node takes is no uniform.
+pub const FRAMES: &[Frame] = &[
+    Frame { name: "world_from_object", help: "from object space, where the mesh was modelled, to world space" },
+    Frame { name: "object_from_world", help: "back from there; zero where the object is scaled flat" },
+    Frame {
+        name: "view_from_world",
+        help: "to view space: the viewer at the origin, +x right, +y up, looking along -z; a turn and a move",
+    },
+];
+
+/// The frame with this name.
+pub fn frame(name: &str) -> Option<&'static Frame> {
+    FRAMES.iter().find(|f| f.name == name)
 }

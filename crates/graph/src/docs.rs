@@ -20,12 +20,8 @@ pub fn nodes_markdown(library: &Library) -> String {
         let own = def.id.split('/').next().unwrap_or("");
         if own != category {
             category = own;
-            // The surface is what every example ends in; its own one has all its sockets as parameters.
-            let example = if category == "surface" { category.into() } else { format!("nodes/{category}") };
-            let _ = write!(
-                out,
-                "\n## {category}\n\nAll of them at work: [{example}.material.json](../examples/{example}.material.json).\n"
-            );
+            let example = format!("nodes/{category}.material.json");
+            let _ = write!(out, "\n## {category}\n\nAll of them at work: [{example}](../examples/{example}).\n");
         }
         node_markdown(def, &mut out);
     }
@@ -105,6 +101,7 @@ fn default_text(default: &Default) -> String {
         Default::Context(name) => format!("`{name}`"),
         Default::Image(ColorSpace::Srgb) => "a picture, sRGB".into(),
         Default::Image(ColorSpace::Linear) => "a picture, linear".into(),
+        Default::Surface => "a surface".into(),
     }
 }
 
@@ -175,6 +172,7 @@ fn input_json(input: &Input) -> Json {
         Default::Value(value) => json!(value.components()),
         Default::Context(name) => json!({ "context": name }),
         Default::Image(space) => json!({ "image": space }),
+        Default::Surface => Json::Null,
     };
     json!({
         "name": input.name,

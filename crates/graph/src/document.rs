@@ -86,6 +86,9 @@ impl Default for SurfaceSettings {
 /// Id of the surface node that [`Document::with_surface`] makes, and of its definition.
 pub const SURFACE_NODE: &str = "surface/surface";
 
+/// The node that mixes two surfaces.
+pub const SURFACE_MIX: &str = "surface/mix";
+
 /// Whether `name` may name a node of a document or a parameter: letters, digits and `_` of ASCII, first a letter, at most 128.
 pub fn is_name(name: &str) -> bool {
     name.len() <= 128

@@ -4,6 +4,7 @@
 //! version does not know (fields, and whole nodes, links or values of a newer version) stays in the document's `unknown` maps and is
 //! written again. Whether a document makes sense is told by `check`, not here.
 
+mod instance;
 mod read;
 mod write;
 
@@ -14,6 +15,7 @@ use std::path::{Path, PathBuf};
 
 use crate::document::{Document, Group};
 
+pub use instance::{InstanceError, MAX_INSTANCE_DEPTH};
 pub use read::{from_json, group_from_json};
 pub use write::{group_to_json, to_json};
 
@@ -54,6 +56,9 @@ pub enum FileError {
         /// What is wrong and what to write instead.
         message: String,
     },
+    /// The file is an instance of another material, and could not be made.
+    #[error(transparent)]
+    Instance(#[from] InstanceError),
     /// The file could not be read.
     #[error("{} could not be read: {source}", path.display())]
     Read {
@@ -91,15 +96,26 @@ pub struct GroupFile {
     pub functions: BTreeMap<String, String>,
 }
 
-/// Reads a document from a file.
-pub fn load(path: &Path) -> Result<Document, FileError> {
-    load_with_bytes(path).map(|(document, _)| document)
+/// A document with what is known of its file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded {
+    /// The document; of an instance the one that it stands for.
+    pub document: Document,
+    /// What stood in the file: an editor tells by it whether others have changed the file since.
+    pub bytes: Vec<u8>,
+    /// Whether the file is an instance: writing the document there would make a material of its own of it.
+    pub is_instance: bool,
 }
 
-/// Reads a document from a file, and returns the bytes that it was read from: an editor tells by them whether others have
-/// changed the file since.
-pub fn load_with_bytes(path: &Path) -> Result<(Document, Vec<u8>), FileError> {
-    load_as(path, from_json)
+/// Reads a document from a file. A file with the field `base` is an instance: another material, named from this file's folder,
+/// with the parameters under `set` changed.
+pub fn load(path: &Path) -> Result<Document, FileError> {
+    load_whole(path).map(|loaded| loaded.document)
+}
+
+/// Reads a document as [`load`] does, with what is known of its file.
+pub fn load_whole(path: &Path) -> Result<Loaded, FileError> {
+    instance::load(path)
 }
 
 /// Reads a group from a file.

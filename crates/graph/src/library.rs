@@ -5,6 +5,7 @@
 //! `T` of a generic file gets a name of its own there; the module is parsed for two of `T`'s types, and what differs is generic.
 //! Nothing is validated beyond naga's parser and no text is kept: the code generator links from the same files.
 
+mod borrowed;
 pub mod custom;
 mod grammar;
 mod node;

@@ -56,6 +56,8 @@ pub enum Argument {
     Input(String),
     /// The sampler of the texture input with this name.
     Sampler(String),
+    /// A transform between spaces; see [`crate::context::FRAMES`].
+    Frame(&'static str),
 }
 
 /// An input socket.
@@ -86,6 +88,8 @@ pub enum Default {
     Context(String),
     /// Nothing: a texture must be chosen. The colour space is the one that a new image gets.
     Image(crate::value::ColorSpace),
+    /// Nothing: a surface must be linked.
+    Surface,
 }
 
 /// An output socket.

@@ -5,6 +5,7 @@ mod custom;
 mod edit;
 mod file;
 mod group;
+mod instance;
 mod large;
 mod library;
 mod operation;

@@ -109,6 +109,7 @@ impl Blocks {
     ) -> Result<Blocks, RasterError> {
         let object = ObjectValues {
             world_from_object: object.world_from_object.to_cols_array(),
+            object_from_world: object.object_from_world().to_cols_array(),
             normal_from_object: object.normal_from_object().to_cols_array(),
         };
         let document = &material.document;

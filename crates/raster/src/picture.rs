@@ -207,6 +207,7 @@ fn frame_values(scene: &Scene, environment: Option<&BakedEnvironment>, view: &Vi
     let (sin, cos) = scene.environment_rotation.to_radians().sin_cos();
     FrameValues {
         clip_from_world: view.clip_from_world(whole.width, whole.height, whole).to_cols_array(),
+        view_from_world: view.view_from_world().to_cols_array(),
         camera_position: view.position.to_array(),
         time: 0.0,
         exposure: scene.exposure.factor(),

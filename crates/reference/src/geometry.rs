@@ -83,6 +83,8 @@ pub(crate) struct Geometry<'a> {
 /// What is known of a point of a surface.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Point {
+    /// Index of what it lies on.
+    pub(crate) body: u32,
     pub(crate) position: DVec3,
     pub(crate) object_position: DVec3,
     /// Unit, of the face, outward.
@@ -311,6 +313,7 @@ impl<'a> Geometry<'a> {
             .sum();
         let geometric_normal = across.normalize();
         let mut point = Point {
+            body: triangle.body,
             position,
             geometric_normal,
             normal: normal.try_normalize().unwrap_or(geometric_normal),
@@ -342,7 +345,8 @@ impl<'a> Geometry<'a> {
         let transform = &self.transforms[sphere.body as usize];
         let local = sphere.object_from_world.transform_point3(position).normalize_or(DVec3::Y);
         let normal = (transform.normal_from_object * local).normalize_or(local);
-        let mut point = Point { position, geometric_normal: normal, normal, view_dir, ..Point::default() };
+        let body = sphere.body;
+        let mut point = Point { body, position, geometric_normal: normal, normal, view_dir, ..Point::default() };
         if precise {
             use std::f64::consts::PI;
             let u = local.x.atan2(local.z) / (2.0 * PI) + 0.5;

@@ -12,7 +12,7 @@ use halfvector_graph::method::Methods;
 use halfvector_interp::{
     Column, Derivatives, Entry, Limits, Machine, OutputColumn, Outputs, Program, Resources, Texture,
 };
-use halfvector_scene::{Scene, SceneMaterial};
+use halfvector_scene::{Scene, SceneMaterial, View};
 
 use crate::ReferenceError;
 use crate::geometry::Point;
@@ -116,6 +116,9 @@ enum Context {
     WorldTangent,
     ViewDir,
     Time,
+    WorldFromObject,
+    ObjectFromWorld,
+    ViewFromWorld,
 }
 
 impl Context {
@@ -129,12 +132,19 @@ impl Context {
             "world_tangent" => Context::WorldTangent,
             "view_dir" => Context::ViewDir,
             "time" => Context::Time,
+            "world_from_object" => Context::WorldFromObject,
+            "object_from_world" => Context::ObjectFromWorld,
+            "view_from_world" => Context::ViewFromWorld,
             _ => return None,
         })
     }
 
-    fn of(self, point: &Point, component: usize) -> f64 {
+    fn of(self, point: &Point, component: usize, frames: &Frames) -> f64 {
+        let object = || frames.objects.get(point.body as usize).unwrap_or(&frames.view);
         match self {
+            Context::WorldFromObject => object().0[component],
+            Context::ObjectFromWorld => object().1[component],
+            Context::ViewFromWorld => frames.view.0[component],
             Context::Uv0 => point.uv0[component],
             Context::Uv1 => point.uv1[component],
             Context::WorldPosition => point.position[component],
@@ -147,9 +157,32 @@ impl Context {
     }
 }
 
+/// A transform and the way back, column by column.
+type Frame = ([f64; 16], [f64; 16]);
+
+/// The transforms between spaces.
+struct Frames {
+    /// World from object space, of each object of the scene.
+    objects: Vec<Frame>,
+    /// View from world space.
+    view: Frame,
+}
+
+impl Frames {
+    fn new(scene: &Scene) -> Frames {
+        let numbers = |m: glam::Mat4| m.as_dmat4().to_cols_array();
+        let of = |object: &halfvector_scene::Object| {
+            (numbers(object.world_from_object), numbers(object.object_from_world()))
+        };
+        let view = View::new(&scene.camera, 1.0, 1.0).view_from_world();
+        Frames { objects: scene.objects.iter().map(of).collect(), view: (numbers(view), numbers(view.inverse())) }
+    }
+}
+
 /// A material ready to be evaluated.
 pub(crate) struct Material {
     program: Program,
+    frames: Frames,
     /// What each input is.
     inputs: Vec<(Context, usize)>,
     /// Where each output goes in the numbers of a [`Surface`].
@@ -196,8 +229,14 @@ impl Material {
         for slot in program.inputs() {
             let mut path = slot.name.split('.').skip(1);
             let context = path.next().and_then(Context::from_name);
-            match (context, component(path.next())) {
-                (Some(context), Some(component)) => inputs.push((context, component)),
+            // Of a matrix the column comes first.
+            let place = match (path.next(), path.next()) {
+                (Some(column), Some(row)) => column.parse::<usize>().ok().zip(component(Some(row))),
+                (part, None) => component(part).map(|component| (0, component)),
+                _ => None,
+            };
+            match (context, place) {
+                (Some(context), Some((column, row))) => inputs.push((context, 4 * column + row)),
                 _ => return Err(wrong(format!("it asks for `{}`, which the reference does not know", slot.name))),
             }
         }
@@ -210,6 +249,7 @@ impl Material {
         let outputs: Vec<Option<usize>> = program.outputs().iter().map(|slot| place(&slot.name)).collect();
 
         let mut made = Material {
+            frames: Frames::new(scene),
             inputs,
             outputs,
             buffers: Vec::new(),
@@ -268,6 +308,7 @@ impl Material {
                 let (u, v) = (f64::from(i % 8) / 8.0 + 0.03, f64::from(i / 8) / 8.0 + 0.05);
                 let place = DVec3::new(2.0 * u - 1.0, 1.0 - 2.0 * v, 0.5);
                 Point {
+                    body: 0,
                     position: place,
                     object_position: place,
                     uv0: DVec2::new(u, v),
@@ -364,7 +405,7 @@ impl Evaluator<'_> {
     }
 
     fn run(&mut self, points: &[Point], steps: Option<Steps<'_>>) -> Result<(), ReferenceError> {
-        let inputs = &self.material.inputs;
+        let (inputs, frames) = (&self.material.inputs, &self.material.frames);
         let sets = [Some(points), steps.map(|s| s[0]), steps.map(|s| s[1])];
         for (k, (columns, set)) in self.columns.iter_mut().zip(sets).enumerate() {
             columns.resize(inputs.len(), Vec::new());
@@ -372,11 +413,11 @@ impl Evaluator<'_> {
                 column.clear();
                 let Some(set) = set else { continue };
                 column.extend(set.iter().zip(points).map(|(point, base)| {
-                    let x = context.of(point, *component);
+                    let x = context.of(point, *component, frames);
                     if k == 0 {
                         return x;
                     }
-                    let change = x - context.of(base, *component);
+                    let change = x - context.of(base, *component, frames);
                     // The seam of a texture is no step.
                     if matches!(context, Context::Uv0 | Context::Uv1) { change - change.round() } else { change }
                 }));

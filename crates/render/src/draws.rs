@@ -283,6 +283,7 @@ fn material_group(
 fn object_group(gpu: &Gpu, of: &Ready, object: &Object) -> Result<Option<wgpu::BindGroup>, RenderError> {
     let values = ObjectValues {
         world_from_object: object.world_from_object.to_cols_array(),
+        object_from_world: object.object_from_world().to_cols_array(),
         normal_from_object: object.normal_from_object().to_cols_array(),
     };
     let mut bound = Vec::new();

@@ -185,6 +185,7 @@ impl Renderer {
         let (sin, cos) = scene.environment_rotation.to_radians().sin_cos();
         let mut frame = FrameValues {
             clip_from_world: glam::Mat4::IDENTITY.to_cols_array(),
+            view_from_world: view.view_from_world().to_cols_array(),
             camera_position: view.position.to_array(),
             time: 0.0,
             exposure: scene.exposure.factor(),

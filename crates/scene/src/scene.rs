@@ -79,6 +79,12 @@ impl Object {
         Mat3::from_cols_array_2d(&halfvector_maps::frame::normal_from_object(columns))
     }
 
+    /// Object from world space; zero where the object is scaled flat, so that there is no way back.
+    pub fn object_from_world(&self) -> Mat4 {
+        let inverse = self.world_from_object.inverse();
+        if inverse.is_finite() { inverse } else { Mat4::ZERO }
+    }
+
     /// -1 where the transform mirrors, else 1: front faces turn over, and the w of tangents changes its sign.
     pub fn handedness(&self) -> f32 {
         halfvector_maps::frame::handedness(Mat3::from_mat4(self.world_from_object).to_cols_array_2d())

@@ -44,13 +44,15 @@ impl View {
         }
     }
 
+    /// View from world: the viewer at the origin, +x right, +y up, looking along -z.
+    pub fn view_from_world(&self) -> Mat4 {
+        Mat4::from_cols(self.right.extend(0.0), self.up.extend(0.0), (-self.forward).extend(0.0), Vec4::W).transpose()
+            * Mat4::from_translation(-self.position)
+    }
+
     /// Clip from world for a tile of a picture, with depth 1 at the near plane and 0 at infinity. The tile's rectangle
     /// fills the clip square: x and y of the whole picture's clip space are stretched and shifted.
     pub fn clip_from_world(&self, width: u32, height: u32, tile: Tile) -> Mat4 {
-        let view_from_world =
-            Mat4::from_cols(self.right.extend(0.0), self.up.extend(0.0), (-self.forward).extend(0.0), Vec4::W)
-                .transpose()
-                * Mat4::from_translation(-self.position);
         let [half_x, half_y] = self.half;
         let clip_from_view = Mat4::from_cols(
             Vec4::new(1.0 / half_x, 0.0, 0.0, 0.0),
@@ -65,7 +67,7 @@ impl View {
             Vec4::Z,
             Vec4::new(offset_x, offset_y, 0.0, 1.0),
         );
-        tile_from_clip * clip_from_view * view_from_world
+        tile_from_clip * clip_from_view * self.view_from_world()
     }
 
     /// (right, up, forward) so that forward + x right + y up is the world direction, not unit, through clip position

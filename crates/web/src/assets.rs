@@ -113,6 +113,7 @@ fn frame(scene: &Scene, environment: Option<&BakedEnvironment>) -> FrameValues {
     let (sin, cos) = scene.environment_rotation.to_radians().sin_cos();
     FrameValues {
         clip_from_world: glam::Mat4::IDENTITY.to_cols_array(),
+        view_from_world: glam::Mat4::IDENTITY.to_cols_array(),
         camera_position: scene.camera.position.to_array(),
         time: 0.0,
         exposure: scene.exposure.factor(),
@@ -258,6 +259,7 @@ fn members(block: &UniformBlock, parameters: &[ShaderParameter]) -> Value {
         let source = match member.source {
             UniformSource::ClipFromWorld => "clip_from_world".to_owned(),
             UniformSource::CameraPosition => "camera_position".to_owned(),
+            UniformSource::ViewFromWorld => "view_from_world".to_owned(),
             UniformSource::Time => "time".to_owned(),
             UniformSource::Input(_) if parameters.iter().any(|parameter| parameter.name == member.name) => {
                 format!("parameter:{}", member.name)
@@ -274,6 +276,7 @@ fn members(block: &UniformBlock, parameters: &[ShaderParameter]) -> Value {
 fn object(scene: &Scene, object: &Object, shader: &Shader) -> Result<Value, WebError> {
     let values = ObjectValues {
         world_from_object: object.world_from_object.to_cols_array(),
+        object_from_world: object.object_from_world().to_cols_array(),
         normal_from_object: object.normal_from_object().to_cols_array(),
     };
     let mut uniforms = Map::new();

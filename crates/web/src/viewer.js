@@ -58,7 +58,10 @@ function view(aspect) {
     [...forward, -dot(forward, position)],
   ];
   const clipFromWorld = [0, 1, 2, 3].flatMap((column) => rows.map((row) => row[column]));
-  return { position, forward, right, up, half, clipFromWorld };
+  const back = scaled(forward, -1);
+  const axes = [right, up, back].map((axis) => [...axis, -dot(axis, position)]);
+  const viewFromWorld = [0, 1, 2, 3].flatMap((column) => [...axes.map((row) => row[column]), column === 3 ? 1 : 0]);
+  return { position, forward, right, up, half, clipFromWorld, viewFromWorld };
 }
 
 /** The bytes of a blob: base64 of zlib. */
@@ -224,6 +227,7 @@ function draw(gpu, output, width, height, side) {
   const seen = view(width / height);
   setSource(gpu, "clip_from_world", seen.clipFromWorld);
   setSource(gpu, "camera_position", seen.position);
+  setSource(gpu, "view_from_world", seen.viewFromWorld);
   setSource(gpu, "time", [scene.time]);
   if (sky) {
     const [right, up] = [scaled(seen.right, seen.half[0]), scaled(seen.up, seen.half[1])];

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 use halfvector_graph::document::Document;
+use halfvector_graph::file::Loaded;
 
 use crate::Options;
 use crate::action::Choose;
@@ -63,6 +64,15 @@ pub(crate) struct Files {
     title: String,
 }
 
+/// What is said of an instance that was opened.
+fn instance_note(path: &Path) -> String {
+    format!(
+        "{} is an instance: what is shown is a copy of the material that it stands for, with its values; change the instance in a text \
+         editor, or save the copy as a material of its own",
+        path.display()
+    )
+}
+
 /// A change of the open file by others.
 #[derive(Debug)]
 pub(crate) struct Outside {
@@ -82,7 +92,11 @@ impl Files {
         let mut open = None;
         if let Some(path) = options.document {
             match read(&path) {
-                Ok((document, bytes)) => {
+                Ok(Loaded { document, is_instance: true, .. }) => {
+                    session = Session::of_instance(document, path.parent().unwrap_or(Path::new("")));
+                    troubles.push(instance_note(&path));
+                }
+                Ok(Loaded { document, bytes, .. }) => {
                     let path = absolute(&path);
                     session = Session::of(document, Some(path.clone()));
                     open = Some((path, bytes));
@@ -210,6 +224,11 @@ impl Editor {
                     self.messages.tell(format!("Opened {}", path.display()));
                     self.files.settings.remember(&path);
                     self.replace_session(Session::of(document, Some(path)));
+                }
+                Report::OpenedInstance(path, document) => {
+                    self.messages.tell(instance_note(&path));
+                    let folder = path.parent().unwrap_or(Path::new(""));
+                    self.replace_session(Session::of_instance(document, folder));
                 }
                 Report::Opened(path, Err(why)) => {
                     self.files.settings.recent.retain(|recent| *recent != path || path.exists());

@@ -12,6 +12,7 @@ use std::time::{Duration, SystemTime};
 
 use eframe::egui;
 use halfvector_graph::document::Document;
+use halfvector_graph::file::Loaded;
 
 use crate::files::record::{Desk, Lost, Record};
 use crate::files::settings::Settings;
@@ -65,6 +66,8 @@ pub(crate) enum Order {
 pub(crate) enum Report {
     /// A material was read, or not.
     Opened(PathBuf, Result<Document, String>),
+    /// A file that is an instance was read: the material that it stands for.
+    OpenedInstance(PathBuf, Document),
     /// A material was written, or not.
     Saved(PathBuf, Arc<Document>, Result<(), SaveFault>),
     /// Others have changed the open file: what stands there now, or why that cannot be read.
@@ -150,9 +153,9 @@ impl Drop for Clerk {
     }
 }
 
-/// A material and the bytes that it was read from.
-pub(crate) fn read(path: &Path) -> Result<(Document, Vec<u8>), String> {
-    halfvector_graph::file::load_with_bytes(path).map_err(|error| error.to_string())
+/// A material with what is known of its file.
+pub(crate) fn read(path: &Path) -> Result<Loaded, String> {
+    halfvector_graph::file::load_whole(path).map_err(|error| error.to_string())
 }
 
 /// The open file as it was seen.
@@ -246,11 +249,18 @@ impl Room {
     fn carry_out(&mut self, order: Order) {
         match order {
             Order::Open(path) => {
-                let read = read(&path).map(|(document, bytes)| {
-                    self.watched = Some(Watched::new(path.clone(), &bytes));
-                    document
-                });
-                self.tell(Report::Opened(path, read));
+                let report = match read(&path) {
+                    Ok(Loaded { document, is_instance: true, .. }) => {
+                        self.watched = None;
+                        Report::OpenedInstance(path, document)
+                    }
+                    Ok(Loaded { document, bytes, .. }) => {
+                        self.watched = Some(Watched::new(path.clone(), &bytes));
+                        Report::Opened(path, Ok(document))
+                    }
+                    Err(why) => Report::Opened(path, Err(why)),
+                };
+                self.tell(report);
             }
             Order::Save { path, document, over_changes } => {
                 let saved = self.save(&path, &document, over_changes);
@@ -309,7 +319,7 @@ impl Room {
                     let changed = now != watched.known;
                     let path = watched.path.clone();
                     if changed {
-                        let read = read(&path).map(|(document, _)| document);
+                        let read = read(&path).map(|loaded| loaded.document);
                         self.tell(Report::Changed(path, read));
                     }
                 }

@@ -32,8 +32,12 @@ pub(super) fn preview(session: &Session, node: &str, output: &str) -> Option<Sub
     let from = SocketRef::new(node, output);
     match (ty, session.path()) {
         (SocketType::Surface, []) => {
-            let key = format!("material {}", to_json(document)).into();
-            let (document, directory) = (document.clone(), session.directory());
+            let document = match surface_node(document, session.library()) {
+                Some(end) if end != node => Arc::new(part(document, node)?),
+                _ => document.clone(),
+            };
+            let key = format!("material {}", to_json(&document)).into();
+            let directory = session.directory();
             Some(Subject { key, document, directory, mesh: BuiltinMesh::Sphere, is_lit: true })
         }
         (SocketType::Value(ty), path) => {
@@ -89,15 +93,29 @@ fn lifted(document: &Arc<Document>, path: &[String], from: SocketRef, ty: Type) 
     Some((Arc::new(whole), from))
 }
 
-/// The part of a document that an output of its top level depends on, as a surface that glows with it, and what that is seen on.
-fn glowing(document: &Document, from: SocketRef, ty: Type, is_direction: bool) -> Option<(Document, BuiltinMesh)> {
+/// A surface that is mixed into the document's, by itself.
+fn part(document: &Document, surface: &str) -> Option<Document> {
+    let mut cut = needed(document, surface)?;
+    cut.surface = document.surface;
+    bring(document, &mut cut);
+    Some(cut)
+}
+
+/// The nodes of a document's top level that one of them depends on, and the links between them.
+fn needed(document: &Document, node: &str) -> Option<Document> {
     let mut cut = Document::new("preview");
-    for id in Wiring::new(&document.graph).order(&[from.node.as_str()]).ok()? {
+    for id in Wiring::new(&document.graph).order(&[node]).ok()? {
         cut.graph.nodes.insert(id.to_owned(), document.graph.nodes.get(id)?.clone());
     }
     let nodes = &cut.graph.nodes;
     let inside = |link: &&Link| nodes.contains_key(&link.from.node) && nodes.contains_key(&link.to.node);
     cut.graph.links = document.graph.links.iter().filter(inside).cloned().collect();
+    Some(cut)
+}
+
+/// The part of a document that an output of its top level depends on, as a surface that glows with it, and what that is seen on.
+fn glowing(document: &Document, from: SocketRef, ty: Type, is_direction: bool) -> Option<(Document, BuiltinMesh)> {
+    let mut cut = needed(document, &from.node)?;
     let kinds = bring(document, &mut cut);
     let depends_on_shape = kinds.iter().any(|kind| kind.starts_with("geometry/") || OF_SHAPE.contains(&kind.as_str()));
     let mut from = from;

@@ -100,6 +100,33 @@ fn a_saved_material_is_the_one_that_was_worked_on() {
     );
 }
 
+/// An instance is shown as what it stands for and never written over: the copy has no file until it is saved somewhere.
+#[test]
+fn an_instance_is_opened_as_a_copy() {
+    let place = Place::new();
+    let instance = place.folder.path().join("blue.material.json");
+    let text = r#"{"halfvector": 1, "base": "enamel.material.json", "set": {"enamel_roughness": 0.25}}"#;
+    std::fs::write(&instance, text).unwrap();
+    let is_copy = |harness: &Harness<'static, Editor>| {
+        let session = harness.state().session();
+        let values = &session.document().graph.nodes["roughness"].values;
+        session.file().is_none() && values.get("b") == Some(&Value::Number(0.25))
+    };
+    let options = Options { document: Some(instance.clone()), folders: place.folders(), ..Options::default() };
+    let mut harness = open(options);
+    settle(&mut harness);
+    assert!(is_copy(&harness));
+    drop(harness);
+    let mut harness = place.open_new();
+    harness.state_mut().act(Action::Open(instance.clone()));
+    settle(&mut harness);
+    assert!(is_copy(&harness));
+    harness.state_mut().act(Action::SaveAs(place.folder.path().join("own.material.json")));
+    settle(&mut harness);
+    assert!(place.folder.path().join("own.material.json").exists());
+    assert_eq!(std::fs::read_to_string(&instance).unwrap(), text);
+}
+
 #[test]
 fn what_a_killed_save_left_behind_is_cleared_away_by_a_later_one() {
     let folder = TempDir::new().expect("a folder");

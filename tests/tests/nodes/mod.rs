@@ -8,4 +8,5 @@ mod finite;
 mod light;
 mod metals;
 mod run;
+mod surface;
 mod values;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use halfvector_graph::library::Library;
-use halfvector_graph::node_def::{Default, NodeDef};
+use halfvector_graph::node_def::{Argument, Default, NodeDef};
 use halfvector_graph::value::{SocketType, Type};
 use halfvector_interp::{
     Address, Column, Derivatives, Float, Level, Limits, Outputs, Program, Resources, Sampler, Shape, Texture,
@@ -20,6 +20,11 @@ pub(super) struct Node {
     /// Scalars of each input that takes numbers, in order; pictures are left out.
     pub(super) widths: Vec<usize>,
 }
+
+/// Transforms of an object that is turned by a quarter about z, three times as high, and moved; and back.
+const FROM_OBJECT: &str = "mat4x4f(0.0, 1.0, 0.0, 0.0, -3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 2.0, -5.0, 1.0)";
+const FROM_WORLD: &str =
+    "mat4x4f(0.0, -1.0 / 3.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -2.0, 1.0 / 3.0, 5.0, 1.0)";
 
 /// Everything of the library that can be linked.
 fn items() -> Vec<(&'static File, Item)> {
@@ -74,23 +79,31 @@ impl Node {
         let function = def.vertex_function.as_ref().filter(|_| vertex).unwrap_or(&def.function);
         let mut text = linked(&function.name, generic);
         let mut entry = function.name.clone();
-        if def.inputs.iter().any(|i| i.ty == SocketType::Texture) {
-            // Pictures are global in the interpreter: a function around the node names them.
+        let has_frame = function.arguments.iter().any(|a| matches!(a, Argument::Frame(_)));
+        if has_frame || def.inputs.iter().any(|i| i.ty == SocketType::Texture) {
+            // Pictures are global in the interpreter, and a transform is one of an object: a function around the node names them.
             let values = def.inputs.iter().filter(|i| i.ty != SocketType::Texture);
             let list: Vec<String> = values
-                .clone()
                 .map(|i| match i.ty {
                     SocketType::Value(ty) => format!("{}: {}", i.name, ty.wgsl()),
                     _ => format!("{}: {}", i.name, generic.wgsl()),
                 })
                 .collect();
-            let names: Vec<&str> = values.map(|i| i.name.as_str()).collect();
+            let is_picture = |name: &str| def.inputs.iter().any(|i| i.name == name && i.ty == SocketType::Texture);
+            let handed = function.arguments.iter().map(|argument| match argument {
+                Argument::Input(name) if is_picture(name) => "probe_image",
+                Argument::Input(name) => name.as_str(),
+                Argument::Sampler(_) => "probe_sampler",
+                Argument::Frame("object_from_world") => FROM_WORLD,
+                Argument::Frame(_) => FROM_OBJECT,
+            });
+            let names: Vec<&str> = handed.collect();
             let result = text.split(&format!("fn {entry}(")).nth(1).and_then(|rest| rest.split("->").nth(1));
             let result = result.and_then(|rest| rest.split('{').next()).expect("a result").trim().to_string();
             text += &format!(
                 "@group(0) @binding(0) var probe_image: texture_2d<f32>;
                  @group(0) @binding(1) var probe_sampler: sampler;
-                 fn probe({}) -> {result} {{ return {entry}(probe_image, probe_sampler, {}); }}",
+                 fn probe({}) -> {result} {{ return {entry}({}); }}",
                 list.join(", "),
                 names.join(", ")
             );
@@ -124,7 +137,7 @@ impl Node {
                     row.extend((0..*width).map(|i| components[i.min(components.len() - 1)]));
                 }
                 Default::Context(name) => row.extend_from_slice(context(name)),
-                Default::Image(_) => {}
+                Default::Image(_) | Default::Surface => {}
             }
         }
         row

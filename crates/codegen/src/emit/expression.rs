@@ -34,6 +34,7 @@ pub(crate) enum ViewMember {
     EnvironmentRotation,
     EnvironmentLevels,
     IrradianceSh,
+    ViewFromWorld,
 }
 
 /// Textures of the environment, in the order of their bindings.
@@ -58,6 +59,8 @@ pub(crate) struct Uses {
     pub(crate) members: BTreeSet<&'static str>,
     /// The normal matrix of the object.
     pub(crate) normal_matrix: bool,
+    /// Transforms between spaces that nodes take.
+    pub(crate) frames: BTreeSet<&'static str>,
 }
 
 /// Names of what both stages share: members of the parameters, textures and samplers.
@@ -178,7 +181,8 @@ impl<'w, 'a> Writer<'w, 'a> {
     fn line(&mut self, entry: &Entry<'a>, text: &str, namer: &mut Namer<'_>) -> String {
         let info = entry.node.map(|node| &self.program.nodes[node]);
         let name = match info {
-            Some(info) => namer.name(info.label, info.id),
+            Some(info) if entry.hint.is_empty() => namer.name(info.label, info.id),
+            Some(info) => namer.name(&format!("{} {}", info.label, entry.hint), &format!("{} {}", info.id, entry.hint)),
             None => namer.name(entry.hint, "value"),
         };
         let (origin, beside) = match info {
@@ -202,6 +206,7 @@ impl<'w, 'a> Writer<'w, 'a> {
                 }
             }
             Expr::Context(name) => self.context(name),
+            Expr::Frame(name) => self.frame(name),
             Expr::Texture(image) => {
                 self.uses.images.insert(*image);
                 self.names.textures[*image].clone()
@@ -266,6 +271,7 @@ impl<'w, 'a> Writer<'w, 'a> {
             ViewMember::EnvironmentRotation => "view.environment_rotation",
             ViewMember::EnvironmentLevels => "view.environment_levels",
             ViewMember::IrradianceSh => "view.irradiance_sh",
+            ViewMember::ViewFromWorld => "view.view_from_world",
         }
     }
 
@@ -283,6 +289,19 @@ impl<'w, 'a> Writer<'w, 'a> {
     pub(crate) fn member(&mut self, name: &'static str) -> String {
         self.uses.members.insert(name);
         format!("in.{name}")
+    }
+
+    /// The text of a transform between spaces.
+    fn frame(&mut self, name: &'static str) -> String {
+        self.uses.frames.insert(name);
+        match (self.entrance, name) {
+            (Entrance::Material, _) => {
+                self.uses.contexts.insert(name);
+                format!("context.{name}")
+            }
+            (_, "view_from_world") => self.view(ViewMember::ViewFromWorld).to_owned(),
+            _ => format!("object.{name}"),
+        }
     }
 
     /// The text of a context, and what it needs noted.

@@ -86,6 +86,7 @@ impl Interface<'_, '_> {
                         ("environment_levels", UniformType::Value(Type::F32), UniformSource::EnvironmentLevels)
                     }
                     ViewMember::IrradianceSh => ("irradiance_sh", UniformType::Sh9, UniformSource::IrradianceSh),
+                    ViewMember::ViewFromWorld => ("view_from_world", UniformType::Mat4, UniformSource::ViewFromWorld),
                 };
                 (name.to_owned(), ty, source)
             })
@@ -164,12 +165,16 @@ impl Interface<'_, '_> {
         if self.vertex.normal_matrix {
             members.push(("normal_from_object".into(), UniformType::Mat3, UniformSource::NormalFromObject));
         }
+        let (vertex, fragment) = (&self.vertex.frames, &self.fragment.frames);
+        if vertex.contains("object_from_world") || fragment.contains("object_from_world") {
+            members.push(("object_from_world".into(), UniformType::Mat4, UniformSource::ObjectFromWorld));
+        }
         bindings.push(Binding {
             group: 2,
             binding: 0,
             name: "object".into(),
             vertex: true,
-            fragment: false,
+            fragment: fragment.iter().any(|frame| *frame != "view_from_world"),
             resource: Resource::Uniform(UniformBlock::new("Object", members)),
         });
     }

@@ -78,6 +78,10 @@ pub(crate) fn material(
             text.line(&format!("    // {}", context.help));
             text.line(&format!("    {}: {},", context.name, context.ty.wgsl()));
         }
+        for frame in halfvector_graph::context::FRAMES.iter().filter(|f| uses.contexts.contains(f.name)) {
+            text.line(&format!("    // {}", frame.help));
+            text.line(&format!("    {}: mat4x4f,", frame.name));
+        }
         text.line("}");
     }
     text.line("");

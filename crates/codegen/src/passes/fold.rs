@@ -1,7 +1,7 @@
 //! Pass: constants are computed and identities taken out, so that neither reaches the shader.
 //!
 //! A call folds when all its arguments are constants and its function can run on numbers alone; a
-//! product with 1 or 0, a sum with 0 and a mix at 0 or 1 fold when one argument is. What is not finite is an error at
+//! product with 1 or 0, a sum with 0 and a mix at 0 or 1 fold when one argument is, a mix of two surfaces when they are alike. What is not finite is an error at
 //! its node, never text.
 
 use std::collections::HashMap;
@@ -11,6 +11,7 @@ use halfvector_graph::value::Type;
 use crate::ir::{Arena, Entry, Expr, Id, Literal, Program, Stage, Ty};
 use crate::link::Index;
 use crate::passes::eval::{Kind, Number, Shape, Value};
+use crate::passes::mixed::{MIX_NORMALS, are_same};
 
 /// A node whose constant value is not a finite number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -93,6 +94,9 @@ fn call(
     arguments: &[Id],
     ty: Option<Type>,
 ) -> Option<Folded> {
+    if function == MIX_NORMALS {
+        return end_of_mix(arena, arguments, ty?);
+    }
     let literals: Vec<Option<Literal>> = arguments.iter().map(|id| arena.as_literal(*id)).collect();
     if literals.iter().all(Option::is_none) {
         return None;
@@ -143,10 +147,30 @@ fn builtin(arena: &Arena<'_>, name: &str, arguments: &[Id], ty: Option<Type>) ->
             let product: Vec<f32> = (0..ty.components()).map(|i| a[i % a.len()] * b[i % b.len()]).collect();
             Some(Folded::Literal(Literal::new(ty, &product)))
         }
-        "mix" if is(2, 0.0) => same_or_spread(arena, arguments[0], ty),
-        "mix" if is(2, 1.0) => same_or_spread(arena, arguments[1], ty),
+        "mix" => end_of_mix(arena, arguments, ty).or_else(|| {
+            let (a, b, t) = (literal(0)?.components(), literal(1)?.components(), literal(2)?.components());
+            let mixed = |i: usize| {
+                let t = t[i % t.len()];
+                a[i % a.len()] * (1.0 - t) + b[i % b.len()] * t
+            };
+            Some(Folded::Literal(Literal::new(ty, &(0..ty.components()).map(mixed).collect::<Vec<f32>>())))
+        }),
+        "saturate" => {
+            let held: Vec<f32> = literal(0)?.components().iter().map(|x| x.clamp(0.0, 1.0)).collect();
+            Some(Folded::Literal(Literal::new(ty, &held)))
+        }
         _ => None,
     }
+}
+
+/// The one side that a mixture is known to be: its weight is 0 or 1, or both sides are the same.
+fn end_of_mix(arena: &Arena<'_>, arguments: &[Id], ty: Type) -> Option<Folded> {
+    let &[a, b, t] = arguments else { return None };
+    let is = |x: f32| arena.as_literal(t).is_some_and(|l| l.is_all(x));
+    if is(0.0) || are_same(arena, a, b) {
+        return same_or_spread(arena, a, ty);
+    }
+    if is(1.0) { same_or_spread(arena, b, ty) } else { None }
 }
 
 fn same_or_spread(arena: &Arena<'_>, id: Id, ty: Type) -> Option<Folded> {

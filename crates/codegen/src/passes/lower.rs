@@ -14,6 +14,7 @@ use halfvector_graph::value::{SocketType, Type, Value};
 use crate::ir::{Arena, Entry, Expr, Id, Input, NodeInfo, Program, Stage, Table, Ty};
 use crate::link::Index;
 use crate::passes::fold;
+use crate::passes::mixed;
 use crate::passes::specialise::{NORMALS, SOCKETS};
 use crate::passes::types::{Source, Types};
 use crate::{CodegenError, Fold};
@@ -36,6 +37,8 @@ pub(crate) struct Lowering<'a, 't> {
     pub(crate) open: Option<&'static str>,
     /// Expressions of the nodes met so far.
     calls: HashMap<usize, Id>,
+    /// Weights of the nodes that mix surfaces, held to 0..1.
+    pub(super) weights: HashMap<usize, Id>,
     /// An expression to take in the place of a context.
     substitute: Option<(&'static str, Id)>,
 }
@@ -48,13 +51,15 @@ impl<'a, 't> Lowering<'a, 't> {
         fold: Fold,
         stage: StageKind,
     ) -> Self {
-        Lowering { document, types, methods, fold, stage, open: None, calls: HashMap::new(), substitute: None }
+        let (calls, weights) = (HashMap::new(), HashMap::new());
+        Lowering { document, types, methods, fold, stage, open: None, calls, weights, substitute: None }
     }
 
     /// From now on `context` is `id`; nodes that were met before are computed again.
     pub(crate) fn substitute(&mut self, context: &'static str, id: Id) {
         self.substitute = Some((context, id));
         self.calls.clear();
+        self.weights.clear();
     }
 
     /// The expression of input `name` of node number `node`; `None` when the node has no such input, or it takes no
@@ -116,7 +121,14 @@ impl<'a, 't> Lowering<'a, 't> {
         }
         let mut arguments = Vec::with_capacity(function.arguments.len());
         for argument in &function.arguments {
-            let (Argument::Input(name) | Argument::Sampler(name)) = argument;
+            let name = match argument {
+                Argument::Input(name) | Argument::Sampler(name) => name,
+                Argument::Frame(frame) => {
+                    let expr = Expr::Frame(frame);
+                    arguments.push(arena.push(Entry { expr, ty: Ty::Resource, node: None, hint: "" }));
+                    continue;
+                }
+            };
             let Some(index) = info.def.inputs.iter().position(|i| i.name == *name) else {
                 return Err(CodegenError::Library(format!(
                     "the function `{}` takes `{name}`, which is no input of `{}`",
@@ -162,10 +174,8 @@ impl<'a, 't> Lowering<'a, 't> {
                 return self.texture(arena, table, node, &self.types.nodes[node].def.inputs[index]);
             }
             SocketType::Surface => {
-                return Err(CodegenError::Library(format!(
-                    "`{}` takes a surface, which this version cannot mix",
-                    info.def.id
-                )));
+                let source = self.types.sources[node][index].and_then(Source::computed);
+                return source.and_then(|source| self.calls.get(&source)).copied().ok_or(CodegenError::NoSurface);
             }
         };
         let is_open = node == self.types.surface && self.open == Some(def.name.as_str());
@@ -194,7 +204,7 @@ impl<'a, 't> Lowering<'a, 't> {
             (Some(components), _) => components.to_vec(),
             (None, Default::Value(value)) => value.components().unwrap_or(&[0.0]).to_vec(),
             (None, Default::Context(name)) => return Ok(self.context(arena, name, ty)),
-            (None, Default::Image(_)) => vec![0.0],
+            (None, Default::Image(_) | Default::Surface) => vec![0.0],
         };
         let parameter =
             self.document.parameters.iter().position(|p| p.socket.node == *info.id && p.socket.socket == def.name);
@@ -259,30 +269,31 @@ pub(crate) fn lower<'a>(
     let mut vertex = Stage::default();
     let lowered = |stage| Lowering { open, ..Lowering::new(document, types, methods, fold, stage) };
     let mut lowering = lowered(StageKind::Vertex);
-    if let Some(height) = lowering.input(&mut vertex.arena, &mut table, types.surface, "height")? {
+    if let Some(height) = lowering.surface(&mut vertex.arena, &mut table, "height")? {
         vertex.roots.insert("height", height);
     }
     // Faults are found again, and told, when the whole program is folded.
     fold::fold_stage(&mut vertex, index, &mut Vec::new());
-    let varies =
-        vertex.root("height").is_some_and(|id| !matches!(vertex.arena.get(id).expr, Expr::Literal(_) | Expr::Input(_)));
+    let varies = vertex.root("height").is_some_and(|id| {
+        let parts = mixed::parts(&vertex.arena, id);
+        parts.iter().any(|id| !matches!(vertex.arena.get(*id).expr, Expr::Literal(_) | Expr::Input(_)))
+    });
 
     let mut fragment = Stage::default();
     let derived_normal = varies && !methods.is("height_normals", "report");
     let mut lowering = lowered(StageKind::Fragment);
     for socket in SOCKETS.into_iter().filter(|s| !NORMALS.contains(s)) {
-        if let Some(id) = lowering.input(&mut fragment.arena, &mut table, types.surface, socket)? {
+        if let Some(id) = lowering.surface(&mut fragment.arena, &mut table, socket)? {
             fragment.roots.insert(socket, id);
         }
     }
-    if derived_normal && let Some(height) = lowering.input(&mut fragment.arena, &mut table, types.surface, "height")? {
+    if derived_normal && let Some(height) = lowering.surface(&mut fragment.arena, &mut table, "height")? {
         let normal = normal_from_height(&mut fragment.arena, height);
         lowering.substitute("world_normal", normal);
     }
     for socket in NORMALS {
-        if let Some(id) = lowering.input(&mut fragment.arena, &mut table, types.surface, socket)? {
-            let unit = unit_normal(&mut fragment.arena, types, id);
-            fragment.roots.insert(socket, unit);
+        if let Some(id) = lowering.surface(&mut fragment.arena, &mut table, socket)? {
+            fragment.roots.insert(socket, id);
         }
     }
     let Table { inputs, images, .. } = table;
@@ -329,7 +340,7 @@ const NORMAL_FROM_HEIGHT: &str = "normal_from_height";
 
 /// The normal, made unit unless it is known to be: the mesh's, a displaced surface's, and what a normal-mapping node
 /// returns are.
-fn unit_normal<'a>(arena: &mut Arena<'a>, types: &Types<'a>, id: Id) -> Id {
+pub(super) fn unit_normal<'a>(arena: &mut Arena<'a>, types: &Types<'a>, id: Id) -> Id {
     let entry = arena.get(id);
     let unit = match &entry.expr {
         Expr::Context("world_normal") => true,
@@ -353,7 +364,7 @@ pub fn input_value(document: &Document, library: &Library, socket: &SocketRef, t
     let (_, _, node) = find(document, &socket.node)?;
     let default = |default: &Default| match default {
         Default::Value(value) => value.components().map(<[f32]>::to_vec),
-        Default::Context(_) | Default::Image(_) => None,
+        Default::Context(_) | Default::Image(_) | Default::Surface => None,
     };
     let components = match (node.values.get(&socket.socket), group_of(&node.node)) {
         (Some(value), _) => value.components()?.to_vec(),

@@ -3,6 +3,8 @@
 //! A lobe of weight zero, a light kind without lights, an environment that is not there: none of them is emitted. Each
 //! decision that leaves something out says so in words.
 
+use std::collections::HashSet;
+
 use halfvector_graph::document::{AlphaMode, Document};
 use halfvector_graph::needs::Needs;
 use halfvector_graph::value::Type;
@@ -193,12 +195,40 @@ impl Known<'_, '_> {
     /// Whether a socket equals `x` in every component: a constant, or a number of the document that is specialised live.
     fn is(&self, stage: &Stage<'_>, socket: &str, x: f32) -> bool {
         let Some(id) = stage.root(socket) else { return false };
-        match &stage.arena.get(id).expr {
-            Expr::Literal(literal) => literal.is_all(x),
-            Expr::Input(input) if self.fold == Fold::Live => {
-                self.program.inputs[*input].value.iter().all(|value| *value == x)
+        // A mixture equals what all its sides are.
+        let (mut open, mut seen) = (vec![id], HashSet::new());
+        while let Some(id) = open.pop() {
+            if !seen.insert(id) {
+                continue;
             }
-            _ => false,
+            match &stage.arena.get(id).expr {
+                Expr::Builtin { name: "mix", arguments } => match self.constant(stage, arguments[2]) {
+                    Some(0.0) => open.push(arguments[0]),
+                    Some(1.0) => open.push(arguments[1]),
+                    _ => open.extend(&arguments[..2]),
+                },
+                Expr::Literal(literal) if literal.is_all(x) => {}
+                Expr::Input(input)
+                    if self.fold == Fold::Live && self.program.inputs[*input].value.iter().all(|value| *value == x) => {
+                }
+                _ => return false,
+            }
+        }
+        true
+    }
+
+    /// The weight of a mixture where it is known.
+    fn constant(&self, stage: &Stage<'_>, weight: Id) -> Option<f32> {
+        match &stage.arena.get(weight).expr {
+            Expr::Literal(literal) => literal.components().first().copied(),
+            Expr::Input(input) if self.fold == Fold::Live => self.program.inputs[*input].value.first().copied(),
+            Expr::Builtin { name: "saturate", arguments } => match &stage.arena.get(arguments[0]).expr {
+                Expr::Input(input) if self.fold == Fold::Live => {
+                    self.program.inputs[*input].value.first().map(|x| x.clamp(0.0, 1.0))
+                }
+                _ => None,
+            },
+            _ => None,
         }
     }
 

@@ -7,6 +7,7 @@ use halfvector_graph::check::surface_node;
 use halfvector_graph::document::Document;
 use halfvector_graph::library::Library;
 use halfvector_graph::resolve::resolve_in;
+use halfvector_graph::value::SocketType;
 use halfvector_graph::wiring::Wiring;
 
 use crate::CodegenError;
@@ -38,6 +39,19 @@ pub(crate) struct Types<'a> {
     pub(crate) sources: Vec<Vec<Option<Source>>>,
     /// The surface node.
     pub(crate) surface: usize,
+}
+
+impl Types<'_> {
+    /// Whether a node's result is a surface.
+    pub(crate) fn gives_surface(&self, node: usize) -> bool {
+        self.nodes[node].def.outputs.iter().any(|output| output.ty == SocketType::Surface)
+    }
+
+    /// The node that feeds an input.
+    pub(crate) fn source(&self, node: usize, input: &str) -> Option<usize> {
+        let index = self.nodes[node].def.inputs.iter().position(|i| i.name == input)?;
+        self.sources[node][index].and_then(Source::computed)
+    }
 }
 
 /// Looks everything up that the surface reaches.

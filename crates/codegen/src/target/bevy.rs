@@ -56,7 +56,14 @@ pub(super) struct Field<'s> {
 fn is_of_engine(source: &UniformSource) -> bool {
     matches!(
         source,
-        UniformSource::ClipFromWorld | UniformSource::CameraPosition | UniformSource::Time | UniformSource::Lights(_)
+        UniformSource::ClipFromWorld
+            | UniformSource::CameraPosition
+            | UniformSource::Time
+            | UniformSource::Lights(_)
+            | UniformSource::ViewFromWorld
+            | UniformSource::WorldFromObject
+            | UniformSource::ObjectFromWorld
+            | UniformSource::NormalFromObject
     )
 }
 
@@ -180,12 +187,20 @@ fn engine_words(lines: &[&str]) -> String {
             }
             None => {
                 let line = replace_word(line, "view.camera_position", "engine::view.world_position");
-                written += &replace_word(&line, "view.time", "engine::globals.time");
+                written += &of_engine(&replace_word(&line, "view.time", "engine::globals.time"));
                 written.push('\n');
             }
         }
     }
     written
+}
+
+/// A line with Bevy's transforms between spaces in the place of ours.
+fn of_engine(line: &str) -> String {
+    let object = |of: &str| format!("mesh_functions::get_{of}(mesh.instance_index)");
+    let line = replace_word(line, "view.view_from_world", "engine::view.view_from_world");
+    let line = replace_word(&line, "object.world_from_object", &object("world_from_local"));
+    replace_word(&line, "object.object_from_world", &object("local_from_world"))
 }
 
 /// The first line in a loop over lights of a kind.

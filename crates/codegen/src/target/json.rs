@@ -111,7 +111,9 @@ fn member(member: &UniformMember) -> Value {
         UniformSource::Lights(LightKind::Point) => json!("point_lights"),
         UniformSource::Lights(LightKind::Spot) => json!("spot_lights"),
         UniformSource::Input(socket) => json!({ "node": socket.node, "socket": socket.socket }),
+        UniformSource::ViewFromWorld => json!("view_from_world"),
         UniformSource::WorldFromObject => json!("world_from_object"),
+        UniformSource::ObjectFromWorld => json!("object_from_world"),
         UniformSource::NormalFromObject => json!("normal_from_object"),
     };
     json!({ "name": member.name, "type": member.ty.wgsl(), "offset": member.offset, "source": source })

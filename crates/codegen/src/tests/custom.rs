@@ -43,6 +43,24 @@ fn a_function_of_the_users_is_linked_with_what_it_calls() {
     validate(&alone).unwrap_or_else(|e| panic!("{e}\n{}", alone.wgsl));
 }
 
+/// What it calls of the library is linked once, whoever calls it.
+#[test]
+fn it_calls_the_library() {
+    let mut document = with(
+        "/// F\n///\n/// Grey.\n/// @node custom/f\n/// - x: number [0]\n/// - uv: where [context uv0]\nfn grey(x: f32, uv: vec2f) -> f32 {\n    let c = srgb_from_linear(vec3f(x, uv));\n    return luminance(c);\n}\n",
+    );
+    for fold in [Fold::Live, Fold::Export] {
+        let wgsl = made(&document, &sun(), fold).wgsl;
+        for name in ["fn node_custom_f(", "fn srgb_from_linear(", "fn luminance("] {
+            assert_eq!(wgsl.matches(name).count(), 1, "{name}\n{wgsl}");
+        }
+    }
+    let text = document.functions["f"].replace("srgb_from_linear", "srgb_of_linear");
+    document.functions.insert("f".into(), text);
+    let why = shader(&document, Library::standard(), &sun(), Fold::Export).expect_err("an unknown name").to_string();
+    assert!(why.contains("did you mean the library's `srgb_from_linear`?"), "{why}");
+}
+
 /// A function that no node uses is not in the shader; a constant one is folded away.
 #[test]
 fn nothing_of_it_stays_that_is_not_needed() {

@@ -159,6 +159,34 @@ fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
+/// A transform between spaces is a uniform of the stage whose nodes take it, and of no other shader.
+#[test]
+fn transforms_are_there_where_nodes_take_them() {
+    let plain = exported(&material("", "", ""), &sun()).wgsl;
+    for name in ["object_from_world", "view_from_world"] {
+        assert!(!plain.contains(name), "{plain}");
+    }
+    let node = |id: &str| format!(r#""n": {{"node": "spaces/{id}"}}"#);
+    let link = r#"{"from": "n.out", "to": "surface.base_color"}"#;
+    for (id, member) in [
+        ("object_from_world_position", "object.object_from_world"),
+        ("world_from_object_direction", "object.world_from_object"),
+        ("view_from_world_direction", "view.view_from_world"),
+    ] {
+        for fold in [Fold::Live, Fold::Export] {
+            let shader = made(&material("", &node(id), link), &sun(), fold);
+            assert!(shader.wgsl.contains(member), "{}", shader.wgsl);
+            let object = shader.reflection.bindings.iter().find(|b| b.name == "object").expect("the object");
+            assert_eq!((object.vertex, object.fragment), (true, member.starts_with("object.")));
+        }
+    }
+    let high = r#"{"from": "x.out", "to": "surface.height"}, {"from": "n.out", "to": "x.v"}"#;
+    let length = format!(r#"{}, "x": {{"node": "vector/length"}}"#, node("object_from_world_position"));
+    let shader = exported(&material("", &length, high), &nothing());
+    assert!(shader.wgsl.contains("object.object_from_world"), "the vertex stage has them, too: {}", shader.wgsl);
+    assert!(shader.reflection.bindings.iter().any(|b| b.name == "object" && !b.fragment));
+}
+
 /// Every function of the library that stands in a shader is reached from an entry point.
 #[test]
 fn no_function_is_idle() {

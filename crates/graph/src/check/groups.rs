@@ -118,7 +118,7 @@ fn input_problem(input: &GroupInput) -> Option<String> {
         return Some("its range needs two finite numbers, the smaller one first".into());
     }
     match (&input.default, input.ty) {
-        (_, SocketType::Generic | SocketType::Surface) => {
+        (_, SocketType::Generic | SocketType::Surface) | (Default::Surface, _) => {
             Some("a group takes numbers, vectors, switches and pictures".into())
         }
         (Default::Image(_), SocketType::Texture) => None,

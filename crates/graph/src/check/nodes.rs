@@ -25,7 +25,7 @@ pub(super) fn check(checker: &mut Checker) {
             }
         }
         for input in &def.inputs {
-            missing_image(checker, id, node, input);
+            missing(checker, id, node, input);
         }
         if checker.is_used && !checker.live.contains(id.as_str()) {
             // The inputs of a group are there whether it reads them or not.
@@ -152,9 +152,15 @@ fn picture(checker: &mut Checker, id: &str, input: &Input, image: &ImageRef) {
     }
 }
 
-fn missing_image(checker: &mut Checker, id: &str, node: &Node, input: &Input) {
-    let is_fed = || checker.wiring.incoming(id, &input.name).is_some();
-    if let (Default::Image(_), None, false) = (&input.default, node.values.get(&input.name), is_fed()) {
-        checker.wrong(id, Some(&input.name), "no picture is chosen; set one");
+/// A picture or a surface that has no default.
+fn missing(checker: &mut Checker, id: &str, node: &Node, input: &Input) {
+    let message = match (&input.default, node.values.get(&input.name)) {
+        (Default::Image(_), None) => "no picture is chosen; set one",
+        // A value that is set on a surface is told as such.
+        (Default::Surface, None) => "no surface comes in; link the output of a surface node",
+        _ => return,
+    };
+    if checker.wiring.incoming(id, &input.name).is_none() {
+        checker.wrong(id, Some(&input.name), message);
     }
 }

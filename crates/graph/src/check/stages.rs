@@ -3,20 +3,44 @@
 
 use super::Checker;
 use crate::context::{Context, context};
+use crate::document::{SURFACE_MIX, SocketRef};
 use crate::node_def::Default;
 use crate::value::Value;
 
 /// Perceptual roughness below which punctual lights draw this value instead.
 const PUNCTUAL_ROUGHNESS_FLOOR: f32 = 0.045;
 
-pub(super) fn check(checker: &mut Checker, surface: &str) {
-    if let Some(height) = checker.wiring.incoming(surface, "height") {
-        // A ring is reported as such.
-        for id in checker.wiring.order(&[&height.node]).unwrap_or_default() {
-            vertex_stage(checker, id);
-        }
+pub(super) fn check(checker: &mut Checker) {
+    let parts = checker.parts();
+    let mut feeding: Vec<&str> = parts
+        .iter()
+        .filter_map(|surface| checker.wiring.incoming(surface, "height"))
+        .map(|height| height.node.as_str())
+        .collect();
+    if !feeding.is_empty() || parts.iter().any(|surface| is_displaced(checker, surface)) {
+        let mixes = checker.live.iter().filter(|id| is_mix(checker, id));
+        feeding.extend(mixes.filter_map(|id| checker.wiring.incoming(id, "t")).map(|weight| weight.node.as_str()));
+        feeding.sort_unstable();
     }
-    roughness(checker, surface);
+    // A ring is reported as such.
+    for id in checker.wiring.order(&feeding).unwrap_or_default() {
+        vertex_stage(checker, id);
+    }
+    for surface in parts {
+        roughness(checker, surface);
+    }
+}
+
+fn is_mix(checker: &Checker, id: &str) -> bool {
+    checker.graph.nodes.get(id).is_some_and(|node| node.node == SURFACE_MIX)
+}
+
+/// Whether a height is set on a surface, or may be by a parameter.
+fn is_displaced(checker: &Checker, surface: &str) -> bool {
+    let set = checker.graph.nodes.get(surface).and_then(|node| node.values.get("height"));
+    let exposed = |socket: &SocketRef| socket.node == surface && socket.socket == "height";
+    set.and_then(Value::components).is_some_and(|c| c.iter().any(|x| *x != 0.0))
+        || checker.document.parameters.iter().any(|parameter| exposed(&parameter.socket))
 }
 
 fn vertex_stage(checker: &mut Checker, id: &str) {

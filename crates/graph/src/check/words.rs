@@ -61,7 +61,8 @@ pub(crate) fn refusal(from: SocketType, to: SocketType) -> &'static str {
     use Type::{Bool, F32, I32};
     match (from, to) {
         (_, SocketType::Texture) => "a picture is set on the node, not linked",
-        (SocketType::Surface, _) => "the surface is the end of the material",
+        (SocketType::Surface, _) => "a surface goes into a node that mixes surfaces, or is the end of the material",
+        (_, SocketType::Surface) => "link the output of a surface node",
         (SocketType::Value(Bool), _) => "a switch is no number; let it choose between two values with a select node",
         (_, SocketType::Value(Bool)) => "a number is no switch; compare it with another one first",
         (SocketType::Value(F32), SocketType::Value(I32)) => "the fraction would be lost; round it first",

@@ -6,19 +6,31 @@ mod value;
 
 use serde_json::{Map, Value as Plain};
 
+use super::instance::{Instance, InstanceError, Material};
 use super::{FileError, GroupFile, MAX_BYTES};
 use crate::FORMAT_VERSION;
 use crate::document::{AlphaMode, Document, Parameter, SocketRef, SurfaceSettings};
 use crate::json::{self, Json, Member, Spanned};
 use graph::GraphReader;
-use value::{choice, lines, list, members_of, number, object, pair, socket, text, text_of};
+use value::{choice, lines, list, members_of, number, object, pair, socket, socket_value, text, text_of};
 
 pub(super) use graph::link_of_plain;
 
 /// Reads a document. A document that makes no sense is read all the same (see `check`); one that is not in the format is refused, with
 /// line, column and field. In a document of a newer version, what cannot be understood is kept instead.
+///
+/// # Errors
+/// An instance is refused, too: its base is found from its file, so [`super::load`] reads it.
 pub fn from_json(text: &str) -> Result<Document, FileError> {
-    parsed(text, read_document)
+    match material_from_json(text)? {
+        Material::Whole(document) => Ok(*document),
+        Material::Instance(instance) => Err(InstanceError::NoFolder { base: instance.base }.into()),
+    }
+}
+
+/// Reads a material's file, which may be an instance.
+pub(super) fn material_from_json(text: &str) -> Result<Material, FileError> {
+    parsed(text, read_material)
 }
 
 /// Reads a group's file; as strict as [`from_json`].
@@ -52,10 +64,44 @@ fn wrong<T>(at: usize, place: &str, message: impl Into<String>) -> Result<T, Wro
     Err(Wrong { at, place: place.into(), message: message.into() })
 }
 
-fn read_document(root: Spanned) -> Result<Document, Wrong> {
+fn read_material(root: Spanned) -> Result<Material, Wrong> {
     let at = root.at;
     let members = object(root, "the document")?;
     let version = version(&members, at)?;
+    if members.iter().any(|member| member.key == "base") {
+        return read_instance(members, version > FORMAT_VERSION).map(Material::Instance);
+    }
+    read_document(members, version, at).map(|document| Material::Whole(Box::new(document)))
+}
+
+/// An instance. Of a newer version only what is understood is taken: nothing is written back to it.
+fn read_instance(members: Vec<Member>, newer: bool) -> Result<Instance, Wrong> {
+    let mut instance = Instance { name: None, base: String::new(), set: Vec::new() };
+    for Member { at, key, value } in members {
+        match key.as_str() {
+            "halfvector" => {}
+            "name" => instance.name = Some(text(value, "name")?),
+            "base" => instance.base = text(value, "base")?,
+            "set" => {
+                for Member { key, value, .. } in object(value, "set")? {
+                    let set = socket_value(&value, &format!("set.{key}"))?;
+                    instance.set.push((key, set));
+                }
+            }
+            _ if newer => {}
+            _ => {
+                return wrong(
+                    at,
+                    &key,
+                    "an instance has the fields name, base and set; leave this out, or leave out `base` for a material of its own",
+                );
+            }
+        }
+    }
+    Ok(instance)
+}
+
+fn read_document(members: Vec<Member>, version: u32, at: usize) -> Result<Document, Wrong> {
     let mut reader = Reader { newer: version > FORMAT_VERSION, unknown: Map::new() };
     let mut graph = GraphReader::new(reader.newer, String::new());
     let mut document = Document::new("");
@@ -84,7 +130,7 @@ fn read_document(root: Spanned) -> Result<Document, Wrong> {
         return wrong(
             at,
             "the document",
-            "the field `nodes` is missing; is this a material? (a scene is another kind of file)",
+            "the field `nodes` is missing; is this a material? (a scene is another kind of file; an instance of another material names it as `base`)",
         );
     }
     document.graph = graph.graph;

@@ -2,7 +2,7 @@
 //! checked: nothing of it goes on that could hang, overflow or reach beyond its arguments.
 //!
 //! Allowed are functions, structs, constants and aliases without attributes, 64 KiB of them, that use WGSL's own
-//! functions and each other. Loops count to a number that stands in the text, and all of them together run at most
+//! functions, each other, and the library's by their names there. Loops count to a number that stands in the text, and all of them together run at most
 //! [`MAX_WORK`] times. Textures are read with an explicit level or gradient, since a node may stand in a branch. The names get the
 //! function's id as prefix, so that none shadows anything.
 
@@ -12,8 +12,10 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use halfvector_shaders::{Item, ItemKind, Token, TokenKind, slice, tokens};
 
+use super::borrowed::{self, BORROWED};
 use super::signature::judge;
 use super::{Library, line_of};
+use crate::check::words::nearest;
 use crate::document::is_name;
 use crate::node_def::NodeDef;
 
@@ -21,6 +23,8 @@ use crate::node_def::NodeDef;
 pub const MAX_BYTES: usize = 64 << 10;
 /// Most turns of loops and calls in one evaluation of the node.
 pub const MAX_WORK: u64 = 1 << 16;
+/// What a call of one of the library's functions counts for: none of them loops much longer.
+const LIBRARY_WORK: u64 = 64;
 /// Largest number in the head of a loop: far from where a counter would wrap around.
 const MAX_COUNT: u64 = 1 << 20;
 /// Longest array.
@@ -124,10 +128,12 @@ fn read(id: &str, text: &str) -> Result<CustomFunction, CodeError> {
     if halfvector_shaders::generic_types(text).is_some() {
         return fail(0, "a function of a document has fixed types; leave out `//! T =`".into());
     }
-    judge(text).map_err(|(at, message)| error_at(text, at, message))?;
+    let library = borrowed::reached(text, &items).map_err(|(range, message)| error_at(text, range.start, message))?;
+    judge(&format!("{text}\n{library}")).map_err(|(at, message)| error_at(text, at, with_hint(text, at, message)))?;
     let main = main_function(id, text, &items)?;
     let source = prefixed(id, text, &items, &main);
-    let library = Library::parse(&[(&format!("nodes/custom/{id}.wgsl"), &source)]).map_err(|e| {
+    let own = (&*format!("nodes/custom/{id}.wgsl"), &*source);
+    let library = Library::parse(&[own, (BORROWED, &library)]).map_err(|e| {
         let problem = &e.problems[0];
         let line = text.split_inclusive('\n').take(problem.line.saturating_sub(1)).map(str::len).sum();
         error_at(text, line, problem.message.clone())
@@ -140,10 +146,23 @@ fn read(id: &str, text: &str) -> Result<CustomFunction, CodeError> {
         let at = items.iter().find(|item| item.name == main).map_or(0, |item| item.code_start);
         return fail(
             at,
-            "it compares neighbouring pixels, which fails in a branch: read textures with textureSampleLevel or textureSampleGrad, and take no derivatives".into(),
+            "it compares neighbouring pixels, which fails in a branch: read textures with textureSampleLevel or textureSampleGrad, take no derivatives, and of the library's nodes call the form of the vertex stage, such as `node_procedural_wave_vertex`".into(),
         );
     }
     Ok(CustomFunction { def, source })
+}
+
+/// What naga says of an unknown name, with the function of the library that was perhaps meant.
+fn with_hint(text: &str, at: usize, message: String) -> String {
+    let rest = text.get(at..).unwrap_or("");
+    let word = &rest[..rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len())];
+    if !message.contains("no definition in scope") || borrowed::is_function(word) {
+        return message;
+    }
+    match nearest(word, borrowed::functions()) {
+        Some(likely) => format!("{message}; did you mean the library's `{likely}`?"),
+        None => format!("{message}; it is none of WGSL's, of yours and of the library's"),
+    }
 }
 
 fn refuse_items(text: &str, items: &[Item]) -> Result<(), CodeError> {
@@ -317,6 +336,8 @@ fn function_work(
             && code.get(i + 1).is_some_and(|next| next.text(text) == "(")
         {
             calls.push((*callee, times(&loops)));
+        } else if borrowed::is_function(word) && code.get(i + 1).is_some_and(|next| next.text(text) == "(") {
+            own = own.saturating_add(times(&loops).saturating_mul(LIBRARY_WORK));
         }
     }
     Ok((own, calls))

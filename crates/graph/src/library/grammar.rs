@@ -44,6 +44,7 @@ pub(super) enum DefaultDoc {
     Numbers(Vec<f32>),
     Context(String),
     Image(ColorSpace),
+    Surface,
 }
 
 /// A line of a doc comment (number from 1, text after `/// `) that does not fit, and why.
@@ -225,7 +226,7 @@ fn finite(text: &str) -> Option<f32> {
 fn default(text: &str) -> Result<DefaultDoc, String> {
     let unknown = || {
         format!(
-            "`{text}` is no default; write a number, numbers parted by commas, true, false, `context NAME`, `image srgb` or `image linear`"
+            "`{text}` is no default; write a number, numbers parted by commas, true, false, `context NAME`, `image srgb`, `image linear` or `surface`"
         )
     };
     match text.split_whitespace().collect::<Vec<_>>().as_slice() {
@@ -234,6 +235,7 @@ fn default(text: &str) -> Result<DefaultDoc, String> {
         ["context", name] => return Ok(DefaultDoc::Context((*name).into())),
         ["image", "srgb"] => return Ok(DefaultDoc::Image(ColorSpace::Srgb)),
         ["image", "linear"] => return Ok(DefaultDoc::Image(ColorSpace::Linear)),
+        ["surface"] => return Ok(DefaultDoc::Surface),
         _ => {}
     }
     let numbers: Vec<f32> = text.split(',').map(|n| finite(n.trim())).collect::<Option<_>>().ok_or_else(unknown)?;

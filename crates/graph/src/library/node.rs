@@ -2,16 +2,14 @@
 
 use halfvector_shaders::ItemKind;
 
+use super::borrowed::BORROWED;
 use super::grammar::{self, ArgumentDoc, DefaultDoc, NodeDoc};
-use super::signature::{ArgumentType, ResultType, Signature, Signatures};
+use super::signature::{ArgumentType, ResultType, SURFACE_STRUCT, Signature, Signatures};
 use super::{LibraryProblem, Source, line_of};
-use crate::context::context;
+use crate::context::{FRAMES, context, frame};
 use crate::method::term;
 use crate::node_def::{Argument, Default, Function, Input, NodeDef, Output, REROUTE};
 use crate::value::{SocketType, Type, Value};
-
-/// The struct whose value a material is.
-const SURFACE_STRUCT: &str = "Surface";
 
 /// Reads the nodes of a file. Names of functions that are nodes or stand in for one go to `taken`.
 pub(super) fn read_nodes(
@@ -54,7 +52,7 @@ pub(super) fn read_nodes(
 /// Reports functions that are named as a node's and are none: their comment has no `@node`.
 pub(super) fn refuse_forgotten(sources: &[Source], taken: &[String], problems: &mut Vec<LibraryProblem>) {
     let taken: std::collections::HashSet<&str> = taken.iter().map(String::as_str).collect();
-    for source in sources {
+    for source in sources.iter().filter(|source| source.path != BORROWED) {
         for item in source.items.iter().filter(|item| item.kind == ItemKind::Fn && item.name.starts_with("node_")) {
             if !taken.contains(item.name.as_str()) {
                 problems.push(LibraryProblem {
@@ -159,10 +157,18 @@ impl Reader<'_> {
                 (ArgumentType::Sampler, Some(described)) => {
                     self.slip(described.line, "a sampler goes with its texture and has no line");
                 }
+                (ArgumentType::Matrix, None) if frame(name).is_some() => {}
+                (ArgumentType::Matrix, Some(described)) if frame(name).is_some() => {
+                    self.slip(described.line, "a transform between spaces is no socket and has no line");
+                }
+                (ArgumentType::Matrix, _) => {
+                    let known: Vec<&str> = FRAMES.iter().map(|f| f.name).collect();
+                    self.slip(doc.line, format!("`{name}` is no transform between spaces; there are {}", known.join(", ")));
+                }
                 (ArgumentType::Other, _) => self.slip(
                     doc.line,
                     format!(
-                        "no socket has the type of `{name}`; arguments are bool, i32, f32, vec2f, vec3f, vec4f, T, or texture_2d<f32> with its sampler"
+                        "no socket has the type of `{name}`; arguments are bool, i32, f32, vec2f, vec3f, vec4f, T, Surface, or texture_2d<f32> with its sampler"
                     ),
                 ),
             }
@@ -177,12 +183,17 @@ impl Reader<'_> {
         {
             self.slip(line, format!("the default of `{name}` lies outside its range"));
         }
-        if argument.range.is_some() && matches!(ty, SocketType::Texture | SocketType::Value(Type::Bool)) {
+        if argument.range.is_some()
+            && matches!(ty, SocketType::Texture | SocketType::Surface | SocketType::Value(Type::Bool))
+        {
             self.slip(line, format!("`{name}` has no range: it is no number"));
         }
         let default = match (&argument.default, ty) {
             (DefaultDoc::Image(space), SocketType::Texture) => Ok(Default::Image(*space)),
             (_, SocketType::Texture) => Err("a texture's default is `image srgb` or `image linear`".into()),
+            (DefaultDoc::Surface, SocketType::Surface) => Ok(Default::Surface),
+            (_, SocketType::Surface) => Err("a surface's default is `surface`: it must be linked".into()),
+            (DefaultDoc::Surface, _) => Err("only a surface has `surface` as default".into()),
             (DefaultDoc::Image(_), _) => Err("only a texture has an image as default".into()),
             (DefaultDoc::Context(given), SocketType::Value(ty)) => match context(given) {
                 Some(context) if context.ty == ty => Ok(Default::Context(given.clone())),
@@ -262,6 +273,9 @@ impl Reader<'_> {
                     }
                     _ => self.slip(line, format!("the sampler `{name}` belongs to no texture of the node")),
                 },
+                ArgumentType::Matrix if frame(name).is_some() => {
+                    arguments.extend(frame(name).map(|frame| Argument::Frame(frame.name)));
+                }
                 ArgumentType::Socket(ty) if input(name).is_some_and(|input| input.ty == *ty) => {
                     arguments.push(Argument::Input(name.clone()));
                 }

@@ -14,11 +14,16 @@ pub(super) struct Signature {
     pub(super) implicit_derivatives: bool,
 }
 
+/// The struct whose value a material is.
+pub(super) const SURFACE_STRUCT: &str = "Surface";
+
 /// Type of an argument or member.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ArgumentType {
     Socket(SocketType),
     Sampler,
+    /// `mat4x4f`
+    Matrix,
     /// One that no socket has.
     Other,
 }
@@ -177,7 +182,7 @@ fn read_module(text: &str) -> Result<HashMap<String, Signature>, ParseError> {
         let arguments = function
             .arguments
             .iter()
-            .map(|a| (a.name.clone().unwrap_or_default(), argument_type(&module.types[a.ty].inner)))
+            .map(|a| (a.name.clone().unwrap_or_default(), argument_type(&module.types[a.ty])))
             .collect();
         let result = function.result.as_ref().map_or(ResultType::None, |result| result_type(&module, result.ty));
         let name = function.name.clone().unwrap_or_default();
@@ -212,9 +217,9 @@ fn takes_derivatives(function: &naga::Function, of_callees: &[bool]) -> bool {
     own
 }
 
-fn argument_type(inner: &naga::TypeInner) -> ArgumentType {
+fn argument_type(ty: &naga::Type) -> ArgumentType {
     use naga::{ImageClass, ImageDimension, Scalar, ScalarKind, TypeInner, VectorSize};
-    let ty = match *inner {
+    let ty = match ty.inner {
         TypeInner::Scalar(Scalar::BOOL) => Type::Bool,
         TypeInner::Scalar(Scalar::I32) => Type::I32,
         TypeInner::Scalar(Scalar::F32) => Type::F32,
@@ -222,11 +227,17 @@ fn argument_type(inner: &naga::TypeInner) -> ArgumentType {
         TypeInner::Vector { size: VectorSize::Tri, scalar: Scalar::F32 } => Type::Vec3,
         TypeInner::Vector { size: VectorSize::Quad, scalar: Scalar::F32 } => Type::Vec4,
         TypeInner::Sampler { comparison: false } => return ArgumentType::Sampler,
+        TypeInner::Matrix { columns: VectorSize::Quad, rows: VectorSize::Quad, scalar: Scalar::F32 } => {
+            return ArgumentType::Matrix;
+        }
         TypeInner::Image {
             dim: ImageDimension::D2,
             arrayed: false,
             class: ImageClass::Sampled { kind: ScalarKind::Float, multi: false },
         } => return ArgumentType::Socket(SocketType::Texture),
+        TypeInner::Struct { .. } if ty.name.as_deref() == Some(SURFACE_STRUCT) => {
+            return ArgumentType::Socket(SocketType::Surface);
+        }
         _ => return ArgumentType::Other,
     };
     ArgumentType::Socket(SocketType::Value(ty))
@@ -234,7 +245,7 @@ fn argument_type(inner: &naga::TypeInner) -> ArgumentType {
 
 fn result_type(module: &naga::Module, ty: naga::Handle<naga::Type>) -> ResultType {
     let naga::TypeInner::Struct { members, .. } = &module.types[ty].inner else {
-        return ResultType::Plain(argument_type(&module.types[ty].inner));
+        return ResultType::Plain(argument_type(&module.types[ty]));
     };
     let docs = module.doc_comments.as_deref();
     let read = |(i, member): (usize, &naga::StructMember)| {
@@ -242,7 +253,7 @@ fn result_type(module: &naga::Module, ty: naga::Handle<naga::Type>) -> ResultTyp
         let lines = lines.into_iter().flatten().map(|line| line.trim_start_matches('/').trim());
         Member {
             name: member.name.clone().unwrap_or_default(),
-            ty: argument_type(&module.types[member.ty].inner),
+            ty: argument_type(&module.types[member.ty]),
             help: lines.collect::<Vec<_>>().join(" "),
         }
     };

@@ -6,7 +6,7 @@ use super::import::{Needed, held, import, needed};
 use super::{Refusal, in_graph, refuse};
 use crate::check::surface_nodes;
 use crate::document::{
-    Document, GROUP_INPUT, GROUP_OUTPUT, Link, Node, NodeId, SURFACE_NODE, SocketRef, free_name, group_of,
+    Document, GROUP_INPUT, GROUP_OUTPUT, Link, Node, NodeId, SURFACE_MIX, SURFACE_NODE, SocketRef, free_name, group_of,
 };
 use crate::edit::Edit;
 use crate::file::{from_json, to_json};
@@ -50,7 +50,8 @@ pub fn paste(
     let has_surface = group.is_some() || !surface_nodes(document, library).is_empty();
     let is_pasted = |node: &Node| {
         let is_socket = node.node == GROUP_INPUT || node.node == GROUP_OUTPUT;
-        !(is_socket || has_surface && node.node == SURFACE_NODE)
+        let is_mix = group.is_some() && node.node == SURFACE_MIX;
+        !(is_socket || is_mix || has_surface && node.node == SURFACE_NODE)
     };
     let nodes: Vec<(&NodeId, &Node)> = copied.graph.nodes.iter().filter(|(_, node)| is_pasted(node)).collect();
     if nodes.is_empty() {

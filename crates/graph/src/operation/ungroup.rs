@@ -163,7 +163,7 @@ impl Parts<'_> {
             (None, Default::Value(value)) => Source::Value(spread(value, input.ty)),
             (None, Default::Context(name)) => Source::Context(name.clone()),
             // No picture is chosen: none is inside.
-            (None, Default::Image(_)) => return None,
+            (None, Default::Image(_) | Default::Surface) => return None,
         })
     }
 

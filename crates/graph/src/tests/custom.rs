@@ -53,6 +53,32 @@ fn a_function_is_a_node() {
     assert!(small().get("custom/test").is_none());
 }
 
+/// The library's functions are called by their names; what they need comes along, in a shader too.
+#[test]
+fn the_librarys_functions_can_be_called() {
+    let read = |body: &str| read_function("test", &text(body, "")).map(|f| f.source.clone()).map_err(|e| e.to_string());
+    let source = read("    return luminance(vec3f(x)) + d_ggx(0.5, 0.75, x) + INV_PI;").expect("the library's");
+    assert!(source.contains("luminance(vec3f(x))") && !source.contains("fn luminance"), "{source}");
+    read("    return node_procedural_value_noise_3d_vertex(vec3f(x), 4.0, 1);").expect("a node's function");
+    let own = text("    return luminance(x);", "fn luminance(x: f32) -> f32 {\n    return x;\n}\n");
+    let own = read_function("test", &own).unwrap_or_else(|e| panic!("{e}"));
+    assert!(own.source.contains("custom_test_luminance(x)"), "one's own comes first: {}", own.source);
+    for (body, part) in [
+        ("    return luminanse(vec3f(x));", "did you mean the library's `luminance`?"),
+        ("    return zzzzzzzzz(x);", "none of WGSL's, of yours and of the library's"),
+        ("    return node_math_mix(x, x, x);", "`node_math_mix` works on any type"),
+        ("    return luminance(x);", "doesn't match the type"),
+        ("    return node_procedural_value_noise_3d(vec3f(x), 4.0, 1);", "the form of the vertex stage"),
+        (
+            "    var s = 0.0;\n    for (var i = 0; i < 2000; i++) {\n        s += luminance(vec3f(x));\n    }\n    return s;",
+            "turns of loops and calls",
+        ),
+    ] {
+        let why = read(body).expect_err(body);
+        assert!(why.contains(part), "{body}: {why}");
+    }
+}
+
 #[test]
 fn errors_point_into_the_users_text() {
     let source = text("    let a = 1.0;\n\treturn y + a;", "");

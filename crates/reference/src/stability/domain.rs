@@ -127,7 +127,10 @@ pub(super) fn contexts(trace: &Trace<'_>, precision: Precision, random: &mut Ran
         .map(|name| {
             let mut parts = name.split('.').skip(1);
             let context = parts.next().unwrap_or_default();
-            let component = parts.next().map_or(0, |c| "xyzw".find(c).unwrap_or_default());
+            let (part, row) = (parts.next(), parts.next());
+            let component = part.map_or(0, |c| "xyzw".find(c).unwrap_or_default());
+            // The object stands where it was modelled, before a viewer at the origin.
+            let on_diagonal = part.and_then(|column| column.parse().ok()) == row.and_then(|row| "xyzw".find(row));
             let of =
                 |(uv0, uv1, world, object, normal, tangent, view, time): &([f64; 2], [f64; 2], V, V, V, V, V, f64)| {
                     let number = match context {
@@ -139,6 +142,7 @@ pub(super) fn contexts(trace: &Trace<'_>, precision: Precision, random: &mut Ran
                         "world_tangent" => tangent.get(component).copied().unwrap_or(1.0),
                         "view_dir" => view[component],
                         "time" => *time,
+                        _ if row.is_some() => f64::from(u8::from(on_diagonal)),
                         _ => 0.0,
                     };
                     precision.rounded(number)

@@ -473,6 +473,7 @@ fn field(input: &Input, ty: SocketType, is_color: bool, set: Option<&Value>) -> 
         (None, InputDefault::Value(value)) => value,
         (None, InputDefault::Context(name)) => return Field::Note(shown(name)),
         (None, InputDefault::Image(_)) => return Field::Note("no picture".into()),
+        (None, InputDefault::Surface) => return Field::Note("no surface".into()),
     };
     if let Value::Image(image) = value {
         let name = image.file.rsplit(['/', '\\']).next().unwrap_or(&image.file);

@@ -33,7 +33,7 @@ pub(crate) fn value_of(session: &Session, def: &NodeDef, socket: &SocketRef) -> 
     session.value(socket).cloned().or_else(|| {
         match &def.inputs.iter().find(|input| input.name == socket.socket)?.default {
             SocketDefault::Value(value) => Some(value.clone()),
-            SocketDefault::Context(_) | SocketDefault::Image(_) => None,
+            SocketDefault::Context(_) | SocketDefault::Image(_) | SocketDefault::Surface => None,
         }
     })
 }
@@ -117,7 +117,7 @@ fn widget(
             ui.weak(in_words(name)).on_hover_text(format!("{help}. Link something to change it."));
             return;
         }
-        (None, SocketDefault::Image(_)) => return,
+        (None, SocketDefault::Image(_) | SocketDefault::Surface) => return,
     };
     let SocketType::Value(ty) = slot.ty else { return };
     let style = Style { range: slot.input.range, unit: &slot.input.unit, is_whole: ty == Type::I32 };

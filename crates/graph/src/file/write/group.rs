@@ -62,6 +62,8 @@ fn input_json(input: &GroupInput) -> String {
         InputDefault::Context(name) => format!("\"context\": {}", quoted(name)),
         InputDefault::Image(ColorSpace::Srgb) => "\"color_space\": \"srgb\"".into(),
         InputDefault::Image(ColorSpace::Linear) => "\"color_space\": \"linear\"".into(),
+        // No group takes a surface.
+        InputDefault::Surface => "\"default\": null".into(),
     });
     fields.extend(input.range.map(|range| format!("\"range\": {}", numbers(&range))));
     for (name, text) in [("unit", &input.unit), ("help", &input.help)] {

@@ -1,0 +1,122 @@
+//! Instances of materials.
+
+use std::fs;
+use std::path::Path;
+
+use crate::document::Document;
+use crate::file::{from_json, load, load_whole};
+use crate::value::Value;
+
+const BASE: &str = r#"{"halfvector": 1, "name": "Paint", "nodes": {
+    "map": {"node": "textures/image", "values": {"image": {"file": "maps/a.png", "color_space": "srgb"}}},
+    "tint": {"node": "math/multiply", "values": {"b": 2}},
+    "surface": {"node": "surface/surface", "values": {"perceptual_roughness": 0.3}}},
+  "links": [{"from": "map.color", "to": "tint.a"}, {"from": "tint.out", "to": "surface.base_color"}],
+  "parameters": [
+    {"name": "roughness", "socket": "surface.perceptual_roughness", "range": [0.1, 0.9]},
+    {"name": "picture", "socket": "map.image"}, {"name": "tint", "socket": "tint.b"},
+    {"name": "gone", "socket": "nothing.at_all"}]}"#;
+
+/// A folder with the base in a folder of its own, and this file.
+fn with(name: &str, text: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::create_dir(folder.path().join("base")).expect("a folder");
+    fs::write(folder.path().join("base/paint.material.json"), BASE).expect("written");
+    fs::write(folder.path().join(name), text).expect("written");
+    folder
+}
+
+fn instance(set: &str) -> Result<Document, String> {
+    let text = format!(r#"{{"halfvector": 1, "name": "Blue", "base": "base/paint.material.json", "set": {{{set}}}}}"#);
+    let folder = with("blue.material.json", &text);
+    load(&folder.path().join("blue.material.json")).map_err(|e| e.to_string())
+}
+
+fn image(document: &Document) -> &str {
+    match &document.graph.nodes["map"].values["image"] {
+        Value::Image(image) => &image.file,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn an_instance_is_its_base_with_other_values() {
+    let made = instance(r#""roughness": 0.5, "tint": [1, 0.5, 0.25]"#).expect("an instance");
+    let base = from_json(BASE).expect("the base");
+    assert_eq!(
+        (made.name.as_str(), &made.graph.links, &made.parameters),
+        ("Blue", &base.graph.links, &base.parameters)
+    );
+    assert_eq!(made.graph.nodes["surface"].values["perceptual_roughness"], Value::Number(0.5));
+    assert_eq!(made.graph.nodes["tint"].values["b"], Value::Vec3([1.0, 0.5, 0.25]));
+    assert_eq!(image(&made), "base/maps/a.png", "the base's picture, from the instance's folder");
+    let own = instance(r#""picture": {"file": "mine.png", "color_space": "srgb"}"#).expect("an instance");
+    assert_eq!(image(&own), "mine.png", "its own picture, from its own folder");
+}
+
+#[test]
+fn instances_of_instances() {
+    let first = r#"{"halfvector": 1, "base": "../base/paint.material.json", "set": {"roughness": 0.5, "tint": 3}}"#;
+    let folder =
+        with("last.material.json", r#"{"halfvector": 1, "base": "b/first.material.json", "set": {"tint": 4}}"#);
+    fs::create_dir(folder.path().join("b")).expect("a folder");
+    fs::write(folder.path().join("b/first.material.json"), first).expect("written");
+    let whole = load_whole(&folder.path().join("last.material.json")).expect("an instance");
+    assert!(whole.is_instance && whole.bytes.starts_with(b"{\"halfvector\": 1, \"base\": \"b/"));
+    let made = whole.document;
+    assert_eq!((made.name.as_str(), image(&made)), ("Paint", "b/../base/maps/a.png"));
+    assert_eq!(made.graph.nodes["surface"].values["perceptual_roughness"], Value::Number(0.5));
+    assert_eq!(made.graph.nodes["tint"].values["b"], Value::Number(4.0), "the outer one decides");
+    assert!(!load_whole(&folder.path().join("base/paint.material.json")).expect("the base").is_instance);
+}
+
+#[test]
+fn what_is_wrong_with_an_instance_is_told() {
+    for (set, parts) in [
+        (r#""rougness": 0.5"#, ["set.rougness", "did you mean `roughness`?"]),
+        (r#""zzz": 0.5"#, ["set.zzz", "roughness, picture, tint, gone"]),
+        (r#""roughness": [1, 0, 0]"#, ["set.roughness", "a number, such as 0.5"]),
+        (r#""roughness": true"#, ["set.roughness", "the value is true"]),
+        (r#""roughness": "nan""#, ["set.roughness", "a f32 is wanted"]),
+        (r#""roughness": 0.95"#, ["set.roughness: 0.95 is out of the range", "0.1 to 0.9"]),
+        (r#""picture": 1"#, ["set.picture", "a picture, such as"]),
+        (r#""gone": 1"#, ["set.gone", "`nothing.at_all`, which is no input"]),
+    ] {
+        let why = instance(set).expect_err(set);
+        assert!(parts.iter().all(|part| why.contains(part)) && why.contains("blue.material.json"), "{set}: {why}");
+    }
+    let told = |text: &str| {
+        let folder = with("a.material.json", text);
+        let back = r#"{"halfvector": 1, "base": "a.material.json"}"#;
+        fs::write(folder.path().join("b.material.json"), back).expect("written");
+        load(&folder.path().join("a.material.json")).expect_err(text).to_string()
+    };
+    let why = told(r#"{"halfvector": 1, "base": "lost.material.json"}"#);
+    assert!(
+        why.contains("a.material.json: its base:") && why.contains("lost.material.json could not be read"),
+        "{why}"
+    );
+    let why = told(r#"{"halfvector": 1, "base": "b.material.json"}"#);
+    assert!(why.contains("an instance of itself") && why.matches("a.material.json").count() >= 2, "{why}");
+    assert!(told(r#"{"halfvector": 1, "base": "a.material.json"}"#).contains("an instance of itself"));
+    let why = told(r#"{"halfvector": 1, "base": "b.material.json", "nodes": {}}"#);
+    assert!(why.contains("at nodes:") && why.contains("name, base and set"), "{why}");
+    let why = told(r#"{"halfvector": 1, "set": {}}"#);
+    assert!(why.contains("`base`"), "{why}");
+    let why = from_json(r#"{"halfvector": 1, "base": "x.json"}"#).expect_err("no folder").to_string();
+    assert!(why.contains("instance of `x.json`"), "{why}");
+}
+
+#[test]
+fn a_long_row_of_instances_ends() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |i: usize| folder.path().join(format!("{i}.material.json"));
+    for i in 0..40 {
+        fs::write(file(i), format!(r#"{{"halfvector": 1, "base": "{}.material.json"}}"#, i + 1)).expect("written");
+    }
+    fs::write(file(40), BASE).expect("written");
+    let why = load(&file(0)).expect_err("too many").to_string();
+    assert!(why.contains("32 instances"), "{why}");
+    load(&file(9)).expect("31 of them");
+    assert!(Path::new(&file(40)).exists());
+}
