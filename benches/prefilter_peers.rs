@@ -1,5 +1,6 @@
 //! CPU seconds of a bake against cmgen (Filament's tool, Debian package `libfilament-tools`): the same map, 256-texel
-//! faces, interleaved runs, medians. cmgen's time is for its levels alone; ours has levels, irradiance and harmonics.
+//! faces, interleaved runs, medians. cmgen's time is for its levels alone; ours has levels, irradiance and harmonics. Where the
+//! program is built (`cargo build --release`), its preview counts, too, as a whole: start, reading, baking, writing.
 //!
 //! `cargo bench -p halfvector-benches --bench prefilter_peers [-- FILE.hdr]`; without a file, the sky of this project.
 
@@ -27,7 +28,8 @@ fn main() {
             (sky, path)
         }
     };
-    let mut seconds = [const { Vec::new() }; 4];
+    let program = std::env::current_exe().ok().and_then(|path| Some(path.ancestors().nth(2)?.join("halfvector")));
+    let mut seconds = [const { Vec::new() }; 5];
     for _ in 0..RUNS {
         for (times, quality) in seconds.iter_mut().zip([Quality::Preview, Quality::Default, Quality::Best]) {
             let irradiance_size = quality.irradiance_size();
@@ -36,6 +38,23 @@ fn main() {
             let baked = bake(&environment, &options);
             times.push(cpu_seconds(false) - before);
             assert!(baked.radiance.len() > 1);
+        }
+        if let Some(program) = program.as_ref().filter(|program| program.is_file()) {
+            let before = cpu_seconds(true);
+            let out = |name: &str| folder.path().join(name);
+            let made = Command::new(program)
+                .arg("bake")
+                .arg(&path)
+                .args(["--size", "256", "--quality", "preview", "--backend", "cpu", "-o"])
+                .arg(out("levels.ktx2"))
+                .arg("--irradiance")
+                .arg(out("diffuse.ktx2"))
+                .arg("--sh")
+                .arg(out("sh.json"))
+                .stderr(Stdio::null())
+                .status();
+            assert!(made.is_ok_and(|status| status.success()), "the program bakes");
+            seconds[4].push(cpu_seconds(true) - before);
         }
         let before = cpu_seconds(true);
         let made = Command::new("cmgen")
@@ -53,7 +72,9 @@ fn main() {
         times.sort_by(f64::total_cmp);
         times.get(times.len() / 2).copied()
     });
-    for (name, time) in ["preview", "default", "best", "cmgen, 1,024 samples, levels alone"].iter().zip(medians) {
+    for (name, time) in
+        ["preview", "default", "best", "cmgen, 1,024 samples, levels alone", "the program, preview"].iter().zip(medians)
+    {
         if let (Some(time), Some(cmgen)) = (time, medians[3]) {
             println!("{name}: {time:.2} CPU s, 1/{:.1} of cmgen", cmgen / time);
         } else if let Some(time) = time {

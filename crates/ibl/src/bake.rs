@@ -11,9 +11,10 @@ use crate::kernel::Lobe;
 use crate::load::{LoadedEnvironment, Source, StoredLevels, StoredLobe};
 use crate::lobe::narrow_lobe;
 use crate::resample::{cube_from_equirect, equirect_from_cube, preview_from_equirect};
+use crate::sh::{RADIANCE_SH, about_z, cosine_factor, harmonic_constants};
 use std::borrow::Cow;
 use std::convert::Infallible;
-use std::f64::consts::LN_2;
+use std::f64::consts::{LN_2, SQRT_2};
 
 /// The largest face of level 0.
 pub const MAX_SIZE: usize = 8192;
@@ -117,7 +118,9 @@ pub struct BakedEnvironment {
     pub slope: Vec<Vec<f32>>,
     /// Diffuse irradiance over pi: the radiance that a white Lambert surface facing each direction sends out.
     pub irradiance_over_pi: Cube,
-    /// The same as nine coefficients of [`irradiance_sh2`](crate::environment::irradiance_sh2), constants folded in.
+    /// The light's own coefficients of [`real_harmonics`](crate::sh::real_harmonics), degrees 0 to 3.
+    pub radiance_sh: [[f32; 3]; RADIANCE_SH],
+    /// Irradiance as nine coefficients of [`irradiance_sh2`](crate::environment::irradiance_sh2), constants folded in.
     pub irradiance_sh: [[f32; 3]; 9],
 }
 
@@ -187,7 +190,8 @@ fn bake_or_stop<E>(
     } else {
         map
     };
-    let spectrum = Spectrum::from_equirect(&map, band.max(options.quality.diffuse_band()).min(MAX_BAND));
+    let band = band.max(options.quality.diffuse_band()).min(MAX_BAND);
+    let spectrum = Spectrum::from_equirect(&map, band, options.quality.more_nodes());
     // The analysis is about half of the work, each level and the irradiance an equal part of the rest.
     let share_done = |level: usize| 0.5 + 0.5 * level as f32 / (roughness.len() + 1) as f32;
     progress(share_done(0))?;
@@ -224,12 +228,14 @@ fn bake_or_stop<E>(
     let irradiance = spectrum.synthesized(&DIFFUSE.kernel(diffuse_band), diffuse_band);
     let diffuse_size = options.irradiance_size.clamp(1, 512);
     let diffuse = texels_of_grid(&irradiance, diffuse_size).into_iter().map(|[r, g, b, _]| [r, g, b]).collect();
+    let radiance_sh = radiance_coefficients(&spectrum);
     let baked = BakedEnvironment {
         radiance,
         roughness,
         slope,
         irradiance_over_pi: Cube { size: diffuse_size, texels: diffuse },
-        irradiance_sh: irradiance_coefficients(&spectrum),
+        irradiance_sh: irradiance_coefficients(&radiance_sh),
+        radiance_sh: radiance_sh.map(|c| c.map(|x| x as f32)),
     };
     progress(1.0)?;
     Ok(baked)
@@ -250,6 +256,11 @@ impl Quality {
         if self == Quality::Preview { 256 } else { usize::MAX }
     }
 
+    /// See [`Spectrum::from_equirect`].
+    fn more_nodes(self) -> usize {
+        if self == Quality::Preview { 0 } else { 2 }
+    }
+
     /// The degree at which the series of diffuse light ends. Its numbers fall only like l^(-5/2), for the cosine has a kink at
     /// the horizon: beside a small lamp that sets, 192 degrees are off by 1 % and 512 by 0.1 %.
     fn diffuse_band(self) -> usize {
@@ -268,7 +279,7 @@ impl Quality {
     /// alpha times the degree at which the series of a GGX lobe ends: there k_l is about exp(-2 series_end).
     fn series_end(self) -> f64 {
         match self {
-            Quality::Preview => 5.0,
+            Quality::Preview => 4.0,
             Quality::Default => 7.0,
             Quality::Best => 10.0,
         }
@@ -406,36 +417,36 @@ fn decoded(environment: &LoadedEnvironment, report: bool) -> Cow<'_, Source> {
     Cow::Owned(source)
 }
 
-/// Degree 0 to 2, from polar angles about +Y to the polynomials of `irradiance_sh2`.
+/// The coefficients of [`real_harmonics`](crate::sh::real_harmonics) up to degree 3, for red, green and blue.
 ///
-/// With c_lm = integral of L P_lm exp(-i m phi), phi from +X towards +Z, the real harmonics are
-/// re c_l0 P_l0 + 2 re c_lm P_lm cos(m phi) - 2 im c_lm P_lm sin(m phi), and
-/// 3y^2 - 1 = -(3z^2 - 1) / 2 - 3 (x^2 - y^2) / 2, x^2 - z^2 = -(3z^2 - 1) / 2 + (x^2 - y^2) / 2 on the unit sphere.
-fn irradiance_coefficients(spectrum: &Spectrum) -> [[f32; 3]; 9] {
-    use std::f64::consts::PI;
-    // P_00, P_10 / y, P_11 / sin, P_20 / (3y^2 - 1), P_21 / (y sin), P_22 / sin^2.
-    let [n00, n10, n11] = [1.0, 3.0, 1.5].map(|x: f64| (x / (4.0 * PI)).sqrt());
-    let [n20, n21, n22] = [1.25, 7.5, 1.875].map(|x: f64| (x / (4.0 * PI)).sqrt());
-    let [a1, a2] = [2.0 / 3.0, 0.25];
+/// With c_lm = integral of L P_lm exp(-i m phi), theta from +Y and phi from +X towards +Z, the light is the sum of
+/// re c_l0 P_l0 + 2 re c_lm P_lm cos(m phi) - 2 im c_lm P_lm sin(m phi): real harmonics about +Y of sqrt(2) re c_lm for
+/// cos(m phi) and -sqrt(2) im c_lm for sin(m phi).
+fn radiance_coefficients(spectrum: &Spectrum) -> [[f64; 3]; RADIANCE_SH] {
     let of_channel = |channel: usize| {
-        let c = |l: usize, m: usize| spectrum.coefficient(l, m)[channel];
-        let about_y = a2 * n20 * c(2, 0)[0];
-        let x2_z2 = 2.0 * a2 * n22 * c(2, 2)[0];
-        [
-            n00 * c(0, 0)[0],
-            a1 * n10 * c(1, 0)[0],
-            -2.0 * a1 * n11 * c(1, 1)[1],
-            2.0 * a1 * n11 * c(1, 1)[0],
-            2.0 * a2 * n21 * c(2, 1)[0],
-            -2.0 * a2 * n21 * c(2, 1)[1],
-            -0.5 * about_y - 0.5 * x2_z2,
-            // sin^2 sin(2 phi) = 2 x z.
-            -4.0 * a2 * n22 * c(2, 2)[1],
-            -1.5 * about_y + 0.5 * x2_z2,
-        ]
+        let mut about_y = [0.0; RADIANCE_SH];
+        for l in 0..=3usize {
+            for m in 0..=l {
+                let [re, im] = spectrum.coefficient(l, m)[channel];
+                let middle = l * l + l;
+                if m == 0 {
+                    about_y[middle] = re;
+                } else {
+                    (about_y[middle + m], about_y[middle - m]) = (SQRT_2 * re, -SQRT_2 * im);
+                }
+            }
+        }
+        about_z(about_y)
     };
     let [r, g, b] = [0, 1, 2].map(of_channel);
-    std::array::from_fn(|k| [r[k] as f32, g[k] as f32, b[k] as f32])
+    std::array::from_fn(|k| [r[k], g[k], b[k]])
+}
+
+/// Nine of them as the polynomials of `irradiance_sh2`.
+fn irradiance_coefficients(radiance: &[[f64; 3]; RADIANCE_SH]) -> [[f32; 3]; 9] {
+    let constants = harmonic_constants();
+    let degree = |k: usize| usize::from(k > 0) + usize::from(k > 3);
+    std::array::from_fn(|k| radiance[k].map(|x| (x * constants[k] * cosine_factor(degree(k))) as f32))
 }
 
 impl BakedEnvironment {

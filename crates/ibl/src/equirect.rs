@@ -62,7 +62,15 @@ impl Equirect {
         let (column, row) = (x.floor(), y.floor());
         let (s, t) = ((x - column) as f32, (y - row) as f32);
         let (column, row) = (column as isize, row as isize);
-        let [a, b, c, d] = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| self.texel(column + dx, row + dy));
+        let first = row * self.width as isize + column;
+        let inside = (0..self.width as isize - 1).contains(&column) && (0..self.height as isize - 1).contains(&row);
+        let [a, b, c, d] = match inside.then(|| self.pixels.get(first as usize..)) {
+            // Nearly all lookups: no neighbour lies round the seam or over a pole.
+            Some(Some([a, b, below @ ..])) if below.len() >= self.width => {
+                [*a, *b, below[self.width - 2], below[self.width - 1]]
+            }
+            _ => [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| self.texel(column + dx, row + dy)),
+        };
         std::array::from_fn(|i| {
             let above = a[i] + (b[i] - a[i]) * s;
             let below = c[i] + (d[i] - c[i]) * s;
@@ -80,8 +88,7 @@ impl Equirect {
         } else {
             (column, row)
         };
-        // `rem_euclid` only where it is needed: a division is dear in the inner loop of the cube.
-        let column = if (0..width).contains(&column) { column } else { column.rem_euclid(width) };
+        let column = column.rem_euclid(width);
         self.pixels[(row.clamp(0, height - 1) * width + column) as usize]
     }
 

@@ -28,6 +28,7 @@ mod repair;
 mod resample;
 mod sampling;
 pub mod save;
+pub mod sh;
 
 pub use bake::{
     BakeOptions, BakedEnvironment, FilterJob, Filtered, LevelMap, MAX_SIZE, Prefilter, Quality, bake, bake_filtered_by,
@@ -45,3 +46,7 @@ pub use quadrature::Quadrature;
 pub use repair::{MAX_RADIANCE, Repairs, repair};
 pub use resample::{cube_from_equirect, equirect_from_cube};
 pub use sampling::{EnvironmentSample, EnvironmentSampler, equirect_texel_solid_angle};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -8,9 +8,11 @@ pub const MAX_RADIANCE: f32 = 65504.0;
 pub struct Repairs {
     /// Not a number: became 0.
     pub not_a_number: u64,
-    /// Below 0 (also minus infinity): became 0.
+    /// Infinite: became [`MAX_RADIANCE`], or 0 where it was minus infinity.
+    pub infinite: u64,
+    /// Below 0, and finite: became 0.
     pub negative: u64,
-    /// Above [`MAX_RADIANCE`], also infinite: became [`MAX_RADIANCE`].
+    /// Above [`MAX_RADIANCE`], and finite: became [`MAX_RADIANCE`].
     pub too_bright: u64,
 }
 
@@ -24,6 +26,7 @@ impl Repairs {
 impl std::ops::AddAssign for Repairs {
     fn add_assign(&mut self, other: Repairs) {
         self.not_a_number += other.not_a_number;
+        self.infinite += other.infinite;
         self.negative += other.negative;
         self.too_bright += other.too_bright;
     }
@@ -36,6 +39,7 @@ impl std::fmt::Display for Repairs {
         }
         let parts = [
             (self.not_a_number, "not a number (now 0)"),
+            (self.infinite, "infinite (now 65504, or 0 where negative)"),
             (self.negative, "negative (now 0)"),
             (self.too_bright, "above 65504 (now 65504)"),
         ];
@@ -51,6 +55,9 @@ pub fn repair(pixels: &mut [[f32; 3]]) -> Repairs {
         if x.is_nan() {
             repairs.not_a_number += 1;
             *x = 0.0;
+        } else if x.is_infinite() {
+            repairs.infinite += 1;
+            *x = if *x > 0.0 { MAX_RADIANCE } else { 0.0 };
         } else if *x < 0.0 {
             repairs.negative += 1;
             *x = 0.0;

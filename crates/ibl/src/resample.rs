@@ -19,16 +19,16 @@ const LOOKUPS_PER_TEXEL: f64 = 1.5;
 /// not be; where it is coarser (also in longitude alone, near the poles) each texel is the mean of a regular grid of
 /// lookups over its area, close enough that no texel of the map falls between them.
 pub fn cube_from_equirect(map: &Equirect, size: usize) -> Cube {
-    resampled(map, size, LOOKUPS_PER_TEXEL)
+    resampled(map, size, LOOKUPS_PER_TEXEL, MAX_TEXELS_AT_POLES)
 }
 
-/// [`cube_from_equirect`] with half of the lookups along an edge: no texel of the map is left out, but those that lie in
-/// the middle of a lookup count more than the others.
+/// [`cube_from_equirect`] with half of the lookups along an edge and, near the poles, no more than elsewhere: texels of the
+/// map that lie in the middle of a lookup count more than the others, and some of the crowd at a pole are left out.
 pub(crate) fn preview_from_equirect(map: &Equirect, size: usize) -> Cube {
-    resampled(map, size, 0.5 * LOOKUPS_PER_TEXEL)
+    resampled(map, size, 0.5 * LOOKUPS_PER_TEXEL, MAX_TEXELS_PER_EDGE)
 }
 
-fn resampled(map: &Equirect, size: usize, lookups_per_texel: f64) -> Cube {
+fn resampled(map: &Equirect, size: usize, lookups_per_texel: f64, texels_at_poles: f64) -> Cube {
     let size = size.max(1);
     // A texel in the middle of a face is this wide, in radians; those nearer to the corners are smaller.
     let width_of_texel = 2.0 / size as f64;
@@ -49,13 +49,14 @@ fn resampled(map: &Equirect, size: usize, lookups_per_texel: f64) -> Cube {
         let angle = width_of_texel / length2.sqrt();
         let lookups = |across: f64| {
             let sin_theta = (across / length2).sqrt().max(1e-9);
-            let columns = (angle * columns_per_radian / sin_theta).min(MAX_TEXELS_AT_POLES);
+            let columns = (angle * columns_per_radian / sin_theta).min(texels_at_poles);
             let texels = columns.max(angle * rows_per_radian);
             if texels <= 1.0 { 1 } else { (lookups_per_texel * texels).ceil() as usize }
         };
         let (sides, poles) = (lookups(1.0 + s * s), lookups(s * s + t * t));
         let mut sums = [[0.0f64; 3]; 6];
         let mut add = |n: usize, faces: &[usize]| {
+            let share = 1.0 / (n * n) as f64;
             let offset = |k: usize| (k as f64 + 0.5) / n as f64 - 0.5;
             for k in 0..n * n {
                 let coordinates =
@@ -63,7 +64,7 @@ fn resampled(map: &Equirect, size: usize, lookups_per_texel: f64) -> Cube {
                 for &face in faces {
                     let texel = map.at(coordinates[face]);
                     for c in 0..3 {
-                        sums[face][c] += f64::from(texel[c]) / (n * n) as f64;
+                        sums[face][c] += f64::from(texel[c]) * share;
                     }
                 }
             }

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 
 mod format;
 mod stated;
+mod tga;
 mod tiff;
 
 use crate::image::{Channels, Image, Texels};
@@ -183,6 +184,7 @@ pub fn decode(bytes: &[u8], limits: Limits) -> Result<Decoded, DecodeError> {
     let name = format::name(format);
     // The decoders below are others' and read hostile bytes: a panic inside one must stay one file's error.
     let parts = catch_unwind(AssertUnwindSafe(|| match format {
+        ImageFormat::Tga => tga::decode(bytes, limits),
         ImageFormat::Tiff => tiff::decode(bytes, limits),
         _ => decode_as(format, bytes, limits),
     }))
@@ -241,7 +243,6 @@ fn decode_as(format: ImageFormat, bytes: &[u8], limits: Limits) -> Result<Parts,
     let profile = match format {
         ImageFormat::Png => stated::png(bytes, icc.as_deref(), is_grey),
         ImageFormat::Bmp => stated::bmp(bytes),
-        ImageFormat::Tga => stated::tga(bytes),
         ImageFormat::Qoi => stated::qoi(bytes),
         _ => match &icc {
             Some(icc) => Some(Profile::from_icc(icc, is_grey)),

@@ -60,6 +60,7 @@ impl Inputs {
         let frame = frame(golden);
         let object = ObjectValues {
             world_from_object: glam::Mat4::IDENTITY.to_cols_array(),
+            object_from_world: glam::Mat4::IDENTITY.to_cols_array(),
             normal_from_object: glam::Mat3::IDENTITY.to_cols_array(),
         };
         let mut inputs = Inputs { blocks: Vec::new(), textures: Vec::new(), samplers: Vec::new() };
@@ -128,6 +129,7 @@ fn frame(golden: &Golden) -> FrameValues {
     (irradiance_sh[0], irradiance_sh[1]) = ([0.4, 0.5, 0.6], [0.1, 0.05, 0.02]);
     FrameValues {
         clip_from_world: clip_from_world.to_cols_array(),
+        view_from_world: glam::Mat4::from_translation(-glam::Vec3::new(x, y, z)).to_cols_array(),
         camera_position: [x, y, z],
         time: 0.0,
         exposure: 0.8,

@@ -142,7 +142,7 @@ pub(crate) fn run(args: &BakeArgs) -> Result<u8, Failure> {
             files.push(file(output, coded(output.format, cube, args.texels, &baked))?);
         }
         if let Some(path) = &args.sh {
-            files.push((path.clone(), harmonics_file::text(&baked.irradiance_sh).into_bytes()));
+            files.push((path.clone(), harmonics_file::text(&baked).into_bytes()));
         }
     }
     if args.output.format == CubeFormat::Hdre && files[0].1.len() > HDRE_MAX_BYTES {

@@ -48,11 +48,13 @@ pub fn bake_filtered_by<E>(
     jobs.push(FilterJob { alpha: 1.0, size: options.irradiance_size.clamp(1, 512) });
     let mut filtered = filter(&map, &jobs)?.into_iter();
 
+    let radiance_sh = radiance_coefficients(&Spectrum::from_equirect(&map, 3, 2));
     let mut baked = BakedEnvironment {
         radiance: Vec::new(),
         slope: Vec::new(),
         irradiance_over_pi: Cube { size: 1, texels: vec![[0.0; 3]; 6] },
-        irradiance_sh: irradiance_coefficients(&Spectrum::from_equirect(&map, 2)),
+        irradiance_sh: irradiance_coefficients(&radiance_sh),
+        radiance_sh: radiance_sh.map(|c| c.map(|x| x as f32)),
         roughness,
     };
     // alpha^2 is the roughness to the power 4, and log2 of that rises by as much from each level to the next.

@@ -23,7 +23,7 @@ const MAX_TEXELS_PER_BYTE: usize = 65536;
 
 /// Reads the bytes of an OpenEXR file.
 fn read_part(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
-    let reader = exr::block::read(Cursor::new(bytes), false).map_err(explained)?;
+    let reader = exr::block::read(Cursor::new(bytes), false).map_err(|why| explained(why, "header"))?;
     reader.headers().iter().try_for_each(|header| check_header(header, bytes.len(), limits))?;
     let (part, channels) = suitable_part(reader.headers())?;
     let header = &reader.headers()[part];
@@ -35,12 +35,12 @@ fn read_part(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
 
     let mut chunks = reader
         .filter_chunks(false, |_, _, block| block.layer == part && block.level == Vec2(0, 0))
-        .map_err(explained)?
+        .map_err(|why| explained(why, "offset tables"))?
         .sequential_decompressor(false);
     // Only when the first block is sound: a header alone buys no memory.
     let mut pixels: Vec<[f32; 3]> = Vec::new();
     while let Some(block) = chunks.decompress_next_block() {
-        let block = block.map_err(explained)?;
+        let block = block.map_err(|why| explained(why, "pixels"))?;
         pixels.resize(count, [0.0; 3]);
         for line in block.lines(&list) {
             let Vec2(x, y) = line.location.position;
@@ -88,7 +88,7 @@ fn read_line(line: &LineRef<'_>, kind: SampleType, target: &mut [[f32; 3]], c: u
         value: impl Fn(T) -> f32,
     ) -> Result<(), Fault> {
         for (pixel, sample) in target.iter_mut().zip(line.read_samples::<T>()) {
-            pixel[c] = value(sample.map_err(explained)?);
+            pixel[c] = value(sample.map_err(|why| explained(why, "pixels"))?);
         }
         Ok(())
     }
@@ -192,14 +192,15 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
         .unwrap_or_else(|_| Err(field("pixels", "the decoder gave up on them; the file is damaged")))
 }
 
-fn explained(error: exr::error::Error) -> Fault {
+/// What the decoder found wrong with a part of the file. It says the end of the file in these words.
+fn explained(error: exr::error::Error, part: &str) -> Fault {
     match error {
-        exr::error::Error::Io(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
-            Fault::Truncated("its header or pixels".to_owned())
+        exr::error::Error::Invalid(what) if what == "reference to missing bytes" => {
+            Fault::Truncated(format!("its {part}"))
         }
         exr::error::Error::NotSupported(what) => {
-            field("content", format!("{what} cannot be read; save as a flat, plain file"))
+            field(part, format!("{what} cannot be read; save as a flat, plain file"))
         }
-        other => field("content", format!("{other}; the file is damaged, save or copy it again")),
+        other => field(part, format!("{other}; the file is damaged, save or copy it again")),
     }
 }

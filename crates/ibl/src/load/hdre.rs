@@ -48,6 +48,9 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<StoredLevels, Fault> 
     if data_at < HEADER {
         return Err(field("headerSize", format!("{data_at} bytes are fewer than a header has")));
     }
+    if data_at > bytes.len() {
+        return Err(field("headerSize", format!("{data_at} lies outside of the file of {} bytes", bytes.len())));
+    }
 
     let sizes: Vec<usize> = (0..LEVELS)
         .map(|level| {

@@ -3,6 +3,8 @@
 //! Zstandard and zlib supercompression are undone; Basis Universal and block compression are refused by name. Of a cube
 //! whose key/values do not state each level's roughness (see `save::ktx2`) only level 0 is kept.
 
+mod descriptor;
+
 use super::{Content, Fault, Limits, Picture, StoredLevels, StoredLobe, checked_texels, field, roughness_list};
 use crate::bake::STEEPEST;
 use crate::cube::Cube;
@@ -12,6 +14,7 @@ use crate::ktx2::{
     RGB9E5, RGBA16F, RGBA32F, color_from_rgb9e5,
 };
 use crate::save::CubeContent;
+use descriptor::Descriptor;
 use half::f16;
 use halfvector_maps::color::linear_from_srgb;
 use std::borrow::Cow;
@@ -30,9 +33,10 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
         let pixels = plain.chunks_exact(header.coding.bytes()).map(|texel| header.coding.decoded(texel)).collect();
         let map = Equirect { width: header.width, height: header.height, pixels };
         let low_dynamic_range = header.coding.low_dynamic_range();
-        return Ok(Content::Picture(Picture { map, low_dynamic_range, notes: Vec::new() }));
+        let notes = header.note.into_iter().collect();
+        return Ok(Content::Picture(Picture { map, low_dynamic_range, notes }));
     }
-    let mut notes = Vec::new();
+    let mut notes: Vec<String> = header.note.clone().into_iter().collect();
     if pairs.text(KEY_CONTENT) == Some(CubeContent::IrradianceOverPi.name()) {
         notes.push("it holds diffuse irradiance, and is taken as if that were the light itself".to_owned());
     }
@@ -62,6 +66,8 @@ struct Header {
     faces: usize,
     coding: Coding,
     compression: Compression,
+    /// What the file's owner may not expect of its colours.
+    note: Option<String>,
     /// Where each level lies in the file, level 0 first.
     levels: Vec<(usize, usize)>,
 }
@@ -94,7 +100,7 @@ impl Header {
         if bytes.len() < HEADER_BYTES {
             return Err(Fault::Truncated("its header".to_owned()));
         }
-        let [vk_format, _type_size, width, height, depth, layers, faces, levels, scheme] =
+        let [vk_format, type_size, width, height, depth, layers, faces, levels, scheme] =
             std::array::from_fn(|i| number(bytes, 12 + 4 * i));
         let coding = Coding::of(vk_format)?;
         if depth != 0 {
@@ -124,12 +130,18 @@ impl Header {
                 return Err(field("supercompressionScheme", format!("{other} is not known; save it uncompressed")));
             }
         };
+        if bytes.len() < HEADER_BYTES + LEVEL_ENTRY_BYTES * count as usize {
+            return Err(Fault::Truncated("its level index".to_owned()));
+        }
+        let descriptor = Descriptor::parsed(bytes, count as usize)?;
+        descriptor.check(vk_format, type_size, coding)?;
         let mut header = Header {
             width: width as usize,
             height: height as usize,
             faces: faces as usize,
             coding,
             compression,
+            note: descriptor.note(),
             levels: Vec::new(),
         };
         let all: u64 = (0..count as usize).map(|level| header.level_texels(level) as u64).sum();
@@ -148,11 +160,13 @@ impl Header {
     /// Where a level begins and ends, as the level index says, once that is found true.
     fn level_entry(&self, bytes: &[u8], level: usize) -> Result<(usize, usize), Fault> {
         let at = HEADER_BYTES + LEVEL_ENTRY_BYTES * level;
-        if bytes.len() < at + LEVEL_ENTRY_BYTES {
-            return Err(Fault::Truncated("its level index".to_owned()));
-        }
         let [offset, length, whole] = [0, 8, 16].map(|i| long(bytes, at + i));
         let needed = (self.level_texels(level) * self.coding.bytes()) as u64;
+        let other_faces = if self.faces == 6 { needed / 6 } else { 6 * needed };
+        if whole == other_faces && whole != needed {
+            let (said, found) = if self.faces == 6 { (6, 1) } else { (1, 6) };
+            return Err(field("faceCount", format!("{said} where level {level} has the bytes of {found}")));
+        }
         if whole != needed {
             return Err(field(
                 format!("uncompressedByteLength of level {level}"),
@@ -278,6 +292,19 @@ impl Coding {
         }
     }
 
+    /// Bytes of a number as it is swapped on big-endian machines: the header's typeSize.
+    fn type_size(self) -> u32 {
+        match self {
+            Coding::Half { .. } => 2,
+            Coding::Float { .. } | Coding::Rgb9E5 | Coding::R11G11B10 => 4,
+            Coding::Codes { .. } => 1,
+        }
+    }
+
+    fn is_srgb(self) -> bool {
+        matches!(self, Coding::Codes { srgb: true, .. })
+    }
+
     /// Reads alpha, where there is one of full precision.
     fn alpha(self) -> Option<fn(&[u8]) -> f32> {
         match self {
@@ -324,10 +351,11 @@ impl<'a> KeyValues<'a> {
     fn parsed(bytes: &'a [u8]) -> Result<KeyValues<'a>, Fault> {
         let wrong = |what: &str, reason: &str| field(what, format!("{reason}; the header is damaged"));
         let (start, length) = (number(bytes, 56) as usize, number(bytes, 60) as usize);
-        let mut rest = start
-            .checked_add(length)
-            .and_then(|end| bytes.get(start..end))
-            .ok_or_else(|| wrong("kvdByteOffset", "the key/values lie outside of the file"))?;
+        let Some(rest) = bytes.get(start..) else {
+            return Err(wrong("kvdByteOffset", "the key/values lie outside of the file"));
+        };
+        let mut rest =
+            rest.get(..length).ok_or_else(|| wrong("kvdByteLength", "the key/values go beyond the file's end"))?;
         let mut pairs = Vec::new();
         while rest.len() >= 4 {
             let length = number(rest, 0) as usize;

@@ -177,7 +177,8 @@ fn lying_headers_name_the_field() {
         (with(8, &[0, 4, 0, 4]), "its levels"),
         (with(16, &[3, 0]), "numChannels"),
         (with(18, &[16, 0]), "bitsPerChannel"),
-        (with(20, &[0xff, 0xff]), "its levels"),
+        (with(20, &[0xff, 0xff]), "headerSize: 65535 lies outside of the file"),
+        (with(20, &[0, 2]), "its levels"),
         (with(20, &[0, 0]), "headerSize"),
         (with(22, &[0, 1]), "endianEncoding"),
         (with(28, &[7, 0]), "type"),
@@ -206,8 +207,13 @@ fn values_are_repaired() {
     let environment = load(&bytes, "x").expect("sound");
     let components = 3 * 6 * 64;
     assert_eq!(environment.repairs.not_a_number, components);
-    assert_eq!(environment.repairs.negative, 2 * components);
-    assert_eq!(environment.repairs.too_bright, 2 * components);
+    assert_eq!(environment.repairs.infinite, 2 * components);
+    assert_eq!(environment.repairs.negative, components);
+    assert_eq!(environment.repairs.too_bright, components);
+    let told = environment.repairs.to_string();
+    for kind in ["not a number", "infinite", "negative", "above 65504"] {
+        assert!(told.contains(kind), "{told}");
+    }
     let levels = stored(environment).levels;
     assert!(levels.iter().flat_map(|c| c.texels.iter().flatten()).all(|x| (0.0..=MAX_RADIANCE).contains(x)));
 }
@@ -267,13 +273,31 @@ fn lying_ktx2_headers_name_the_field() {
         (sound[..100].to_vec(), "its level index"),
         (with(12, &[0]), "vkFormat: 0 (Basis"),
         (with(12, &[131]), "BC block"),
+        (with(12, &[109]), "vkFormat: 109 has texels of 16 bytes, and bytesPlane0"),
+        (with(12, &[90]), "vkFormat: 90 has texels of 6 bytes, and bytesPlane0"),
+        (with(12, &[122]), "vkFormat: 122 has texels of 4 bytes"),
+        (with(16, &[4]), "typeSize: 4 where vkFormat 97 has 2"),
         (with(20, &[0, 0, 0, 0, 0]), "size"),
         (with(20, &[0xff; 8]), "limit"),
         (with(20, &[16]), "pixelHeight"),
         (with(28, &[1]), "pixelDepth"),
         (with(32, &[9]), "layerCount"),
         (with(36, &[5]), "faceCount"),
+        (with(36, &[1]), "faceCount: 1 where level 0 has the bytes of 6"),
         (with(40, &[9]), "levelCount"),
+        (with(40, &[0]), "levelCount"),
+        (with(40, &[2]), "levelCount: 2 where the level index, up to dfdByteOffset, has room for 3"),
+        (with(40, &[4]), "levelCount"),
+        (with(48, &[0xff; 4]), "dfdByteOffset"),
+        (with(48, &[153]), "dfdByteOffset"),
+        (with(52, &[0; 4]), "dfdByteLength"),
+        (with(52, &[0xff; 4]), "dfdByteLength"),
+        (with(152, &[1]), "dfdTotalSize"),
+        (with(156, &[1]), "descriptorType"),
+        (with(162, &[0xff]), "descriptorBlockSize"),
+        (with(166, &[2]), "transferFunction"),
+        (with(172, &[16]), "bytesPlane0"),
+        (with(60, &[0xff; 4]), "kvdByteLength"),
         (with(44, &[1]), "supercompressionScheme"),
         (with(44, &[77]), "supercompressionScheme"),
         (with(44, &[2]), "level 0"),
@@ -290,6 +314,34 @@ fn lying_ktx2_headers_name_the_field() {
         let error = load(&file, "room.ktx2").expect_err(part).to_string();
         assert!(error.contains(part) && error.contains("room.ktx2"), "{error} should name {part}");
     }
+}
+
+/// The header's zero levels, which asks for levels to be made, is no lie where nothing contradicts it; foreign primaries
+/// are told.
+#[test]
+fn ktx2_headers_of_others() {
+    let one = Cube { size: 4, texels: vec![[0.5, 1.0, 2.0]; 96] };
+    let mut file = ktx2(CubeLevels::irradiance_over_pi(&one), TexelFormat::Rgba16F).expect("written");
+    file[40] = 0;
+    assert_eq!(stored(load(&file, "x").expect("sound")).levels[0], one);
+    let descriptor = 80 + 24;
+    file[descriptor + 13] = 9;
+    let notes = load(&file, "x").expect("sound").notes;
+    assert!(notes.iter().any(|note| note.contains("colorPrimaries (9)")), "{notes:?}");
+}
+
+/// Cut anywhere, an EXR file says that it ends, and within what.
+#[test]
+fn cut_exr_files_say_where() {
+    let sound = small_exr();
+    let mut parts = std::collections::BTreeSet::new();
+    for length in 4..sound.len() {
+        match load(&sound[..length], "cut.exr") {
+            Err(LoadError::Truncated { field, .. }) => drop(parts.insert(field)),
+            other => panic!("cut at {length} of {}: {other:?}", sound.len()),
+        }
+    }
+    assert_eq!(parts.into_iter().collect::<Vec<_>>(), ["its header", "its offset tables", "its pixels"]);
 }
 
 proptest! {

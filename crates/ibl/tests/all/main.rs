@@ -12,6 +12,7 @@ mod peers;
 mod sampling;
 mod save;
 mod seen;
+mod sh;
 mod truth;
 
 use std::path::PathBuf;

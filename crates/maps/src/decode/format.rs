@@ -39,7 +39,8 @@ fn looks_like_tga(bytes: &[u8]) -> bool {
         && matches!(image_type, 1..=3 | 9..=11)
         && width > 0
         && height > 0
-        && matches!(header[16], 8 | 15 | 16 | 24 | 32)
+        // 1 bit is read by none, and refused by name.
+        && matches!(header[16], 1 | 8 | 15 | 16 | 24 | 32)
 }
 
 /// The format's name for people.

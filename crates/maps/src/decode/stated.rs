@@ -4,19 +4,49 @@ use crate::profile::Profile;
 
 /// What a PNG file says in its own chunks, before the image data; `icc` is its decoded iCCP chunk.
 /// ISO/IEC 15948 (2003) and its third edition (W3C 2025), 4.3: cICP before iCCP before sRGB before gAMA and cHRM.
+///
+/// The decoder passes over damaged chunks that it can do without. Where one may have said how colours are coded, and no
+/// sound chunk goes before it, colours are refused.
 pub(super) fn png(bytes: &[u8], icc: Option<&[u8]>, is_grey: bool) -> Option<Profile> {
     let (mut srgb, mut iccp, mut gamma, mut cicp, mut primaries) = (false, false, None, None, None);
-    let mut damaged = None;
+    // Place in the order, and name.
+    let mut damaged: Option<(usize, String)> = None;
     let mut rest = bytes.get(8..)?;
     while let Some((&[a, b, c, d], after)) = rest.split_first_chunk::<4>() {
-        let Some((kind, after)) = after.split_first_chunk::<4>() else { break };
+        let Some((kind, contents)) = after.split_first_chunk::<4>() else { break };
         let length = u32::from_be_bytes([a, b, c, d]) as usize;
-        let Some(data) = after.get(..length) else { break };
+        let Some(data) = contents.get(..length) else { break };
+        if kind == b"IDAT" {
+            break;
+        }
+        let sum = contents.get(length..).and_then(|rest| rest.first_chunk::<4>()).map(|&sum| u32::from_be_bytes(sum));
+        // Large chunks of other kinds are not summed up; those that end the decoder's reading are not ours to judge.
+        let place = match kind {
+            b"cICP" => Some(0),
+            b"iCCP" => Some(1),
+            b"sRGB" => Some(2),
+            b"gAMA" | b"cHRM" => Some(3),
+            b"IHDR" | b"PLTE" | b"tRNS" | b"bKGD" | b"hIST" | b"pHYs" | b"sBIT" | b"sPLT" | b"tIME" | b"tEXt"
+            | b"zTXt" | b"iTXt" | b"eXIf" | b"acTL" | b"fcTL" | b"mDCV" | b"cLLI" | b"oFFs" | b"vpAg" | b"caNv"
+            | b"orNT" => None,
+            // Perhaps a name that was damaged.
+            _ => Some(0),
+        };
+        let has_length = match kind {
+            b"cICP" | b"gAMA" => length == 4,
+            b"cHRM" => length == 32,
+            _ => true,
+        };
+        rest = contents.get(length + 4..).unwrap_or_default();
+        if let Some(place) = place
+            && !(has_length && sum == Some(crc32(after.get(..4 + length).unwrap_or_default())))
+        {
+            if damaged.as_ref().is_none_or(|(first, _)| place < *first) {
+                damaged = Some((place, format!("{} chunk", kind.escape_ascii())));
+            }
+            continue;
+        }
         match kind {
-            b"IDAT" => break,
-            b"gAMA" if length != 4 => damaged = Some("gAMA chunk"),
-            b"cICP" if length != 4 => damaged = Some("cICP chunk"),
-            b"cHRM" if length != 32 => damaged = Some("cHRM chunk"),
             b"sRGB" => srgb = true,
             b"iCCP" => iccp = true,
             b"gAMA" => gamma = data.first_chunk::<4>().map(|&value| u32::from_be_bytes(value)),
@@ -24,7 +54,12 @@ pub(super) fn png(bytes: &[u8], icc: Option<&[u8]>, is_grey: bool) -> Option<Pro
             b"cHRM" => primaries = chromaticities(data),
             _ => {}
         }
-        rest = after.get(length + 4..).unwrap_or_default();
+    }
+    let sound = [cicp.is_some(), iccp, srgb].into_iter().position(|is_there| is_there).unwrap_or(3);
+    if let Some((place, name)) = damaged
+        && (place < sound || place == 3 && sound == 3)
+    {
+        return Some(Profile::refused(name, "it is damaged"));
     }
     if let Some(cicp) = cicp {
         return Some(Profile::from_cicp(cicp));
@@ -33,9 +68,6 @@ pub(super) fn png(bytes: &[u8], icc: Option<&[u8]>, is_grey: bool) -> Option<Pro
         return Some(
             icc.map_or_else(|| Profile::refused("iCCP chunk", "it is damaged"), |icc| Profile::from_icc(icc, is_grey)),
         );
-    }
-    if let Some(name) = damaged.filter(|_| !srgb) {
-        return Some(Profile::refused(name, "it is damaged"));
     }
     let gamma_name = gamma.map(|gamma| format!("gAMA {:.5}", f64::from(gamma) / 1e5));
     if srgb {
@@ -50,6 +82,26 @@ pub(super) fn png(bytes: &[u8], icc: Option<&[u8]>, is_grey: bool) -> Option<Pro
         (None, false) => return None,
     };
     Some(Profile::from_gamma(name, gamma, primaries.filter(|_| !is_grey)))
+}
+
+/// The check sum of a chunk's kind and data (ISO/IEC 15948, annex D).
+fn crc32(bytes: &[u8]) -> u32 {
+    const TABLE: [u32; 256] = {
+        let mut table = [0; 256];
+        let mut byte = 0;
+        while byte < 256 {
+            let mut crc = byte as u32;
+            let mut bit = 0;
+            while bit < 8 {
+                crc = (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg());
+                bit += 1;
+            }
+            table[byte] = crc;
+            byte += 1;
+        }
+        table
+    };
+    !bytes.iter().fold(!0, |crc, &byte| (crc >> 8) ^ TABLE[usize::from((crc as u8) ^ byte)])
 }
 
 /// cHRM: white, red, green, blue, each x and y in hundred thousandths.
@@ -110,7 +162,9 @@ pub(super) fn tga(bytes: &[u8]) -> Option<Profile> {
     })
 }
 
-/// The colour space byte of a QOI header: 0 is sRGB, which goes without saying, 1 all linear.
+/// The colour space byte of a QOI header: 0 is sRGB, which goes without saying, 1 all linear. It and the channels byte before
+/// it are statements that change no value: texels are coded alike for three channels and for four, but one with alpha in a
+/// file that states three is damage. So are bytes other than 0 and 1, and than 3 and 4.
 /// Szablewski 2022, "The Quite OK Image Format Specification 1.0".
 pub(super) fn qoi(bytes: &[u8]) -> Option<Profile> {
     (bytes.get(13) == Some(&1)).then(|| Profile::linear("QOI header linear"))

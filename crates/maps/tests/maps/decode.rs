@@ -283,6 +283,27 @@ fn other_files_are_named() {
     assert!(message(&png[..60]).contains("ends before"), "{}", message(&png[..60]));
 }
 
+/// The two bytes of a QOI header that state something change no value: without alpha, three channels or four are the same.
+#[test]
+fn qoi_statements_change_no_values() {
+    let sound = file(ImageFormat::Qoi, ExtendedColorType::Rgb8);
+    let values = |place: usize, byte: u8| {
+        let mut bytes = sound.clone();
+        bytes[place] = byte;
+        decode(&bytes, Limits::default())
+    };
+    let (three, four) = (values(12, 3).unwrap(), values(12, 4).unwrap());
+    assert_eq!((three.channels(), four.channels()), (Channels::Rgb, Channels::Rgba));
+    assert_eq!(three.texels(), four.texels());
+    assert_eq!(values(13, 1).unwrap(), values(13, 0).unwrap());
+    for (place, byte) in [(12, 0), (12, 5), (13, 2)] {
+        assert!(values(place, byte).is_err(), "byte {place}: {byte}");
+    }
+    let mut with_alpha = file(ImageFormat::Qoi, ExtendedColorType::Rgba8);
+    with_alpha[12] = 3;
+    assert!(matches!(decode(&with_alpha, Limits::default()), Err(DecodeError::Damaged { format: "QOI", .. })));
+}
+
 #[test]
 fn images_need_their_texels() {
     let texels = || Texels::U8(vec![[0; 4]; 6]);

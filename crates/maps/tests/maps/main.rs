@@ -15,6 +15,7 @@ mod profiles;
 mod relief;
 mod tangents;
 mod texel;
+mod tga_files;
 mod tiff_files;
 
 use halfvector_maps::Real;

@@ -252,6 +252,41 @@ fn refusals_name_the_profile() {
     }
 }
 
+/// Whichever bit of a chunk about colours is turned over, the colours are the same, or refused: never others in silence.
+#[test]
+fn a_damaged_chunk_changes_no_colours() {
+    let icc = ColorProfile::new_display_p3().encode().unwrap();
+    let [(_, with_icc), _] = with_profile(&COLORS, &icc);
+    let icc_length = u32::from_be_bytes(with_icc[33..37].try_into().unwrap()) as usize;
+    assert_eq!(&with_icc[37..41], b"iCCP");
+    let files = [
+        (png(&COLORS, &[gamma(100_000)]), 16),
+        (png(&COLORS, &[chunk(b"sRGB", &[0]), gamma(45_455)]), 13),
+        (png(&COLORS, &[gamma(100_000), chunk(b"sRGB", &[0])]), 16),
+        (png(&COLORS, &[chunk(b"cICP", &[1, 8, 0, 1]), chunk(b"sRGB", &[0])]), 16),
+        (with_icc, icc_length + 12),
+    ];
+    let color = |bytes: &[u8]| {
+        let decoded = halfvector_maps::decode(bytes, Limits::default()).ok()?;
+        decoded.into_color().ok().map(|noted| noted.image)
+    };
+    for (whole, length) in files {
+        let sound = color(&whole).expect("it is sound");
+        let mut refused = 0;
+        // Behind the chunk's length, which the decoder judges.
+        for bit in 8 * 37..8 * (33 + length) {
+            let mut bytes = whole.clone();
+            bytes[bit / 8] ^= 1 << (bit % 8);
+            match color(&bytes) {
+                Some(image) => assert_eq!(image, sound, "bit {} of byte {}", bit % 8, bit / 8 - 33),
+                None => refused += 1,
+            }
+        }
+        println!("{refused} of {} damaged files are refused", 8 * (length - 4));
+        assert!(refused > 0 || length == 16, "{length}");
+    }
+}
+
 /// The other formats' own words: QOI's linear, a TGA's gamma, a BMP header's colour space.
 #[test]
 fn other_formats_are_heard() {
