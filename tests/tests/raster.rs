@@ -145,6 +145,27 @@ fn every_example_looks_the_same_on_the_cpu() {
     assert!(failed.is_empty(), "{failed:?}");
 }
 
+/// A preview of a material of more than thirty nodes, all of which count, with four textures and an environment. The time is
+/// printed, not judged; `halfvector render benches/thirty-nodes.material.json --backend cpu --samples 1 --size 512x512` is the
+/// whole of it, with the bake.
+#[test]
+fn a_preview_of_thirty_nodes() {
+    let path = root().join("benches/thirty-nodes.material.json");
+    let document = halfvector_graph::file::load(&path).unwrap_or_else(|e| panic!("{e}"));
+    let problems = halfvector_graph::check::check(&document, halfvector_graph::library::Library::standard());
+    assert!(problems.is_empty(), "{problems:?}");
+    assert!(document.graph.nodes.len() >= 30);
+    let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
+    let scene = Scene::from_material(document, &root().join("benches"), &sphere).unwrap_or_else(|e| panic!("{e}"));
+    let studio = baked(&EnvironmentSource::Studio);
+    let options = RasterOptions { width: 512, height: 512, samples_per_side: 1, fold: Fold::Export };
+    let begin = Instant::now();
+    let picture =
+        halfvector_raster::draw::<f32>(&scene, studio.as_ref(), &options, |_| {}).unwrap_or_else(|e| panic!("{e}"));
+    println!("512 x 512 in {:.2} s", begin.elapsed().as_secs_f64());
+    assert!(picture.pixels.as_flattened().iter().all(|x| x.is_finite()));
+}
+
 #[test]
 fn the_same_bytes_at_any_number_of_threads() {
     let mut scene = material(&root().join("examples/plain-dielectric.material.json"));

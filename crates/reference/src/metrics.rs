@@ -6,5 +6,5 @@ mod flip;
 mod palette;
 
 pub use difference::{Difference, Scores, difference, scores};
-pub use flip::{FLIP_PIXELS_PER_DEGREE, FlipOptions, flip_hdr, flip_ldr};
+pub use flip::{FLIP_PIXELS_PER_DEGREE, Flip, FlipOptions, flip_hdr, flip_ldr, flip_of_noise};
 pub use palette::magma;

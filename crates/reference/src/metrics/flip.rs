@@ -11,6 +11,8 @@ mod color;
 
 use color::{Opponent, lab_from_rgb, opponent_from_rgb, rgb_from_opponent};
 
+use crate::random::Random;
+
 /// Pixels per degree of sight on a display of 3840 pixels and 0.7 m, seen from 0.7 m.
 pub const FLIP_PIXELS_PER_DEGREE: f64 = 0.7 * (3840.0 / 0.7) * std::f64::consts::PI / 180.0;
 
@@ -87,6 +89,32 @@ pub fn flip_hdr(reference: &[[f64; 3]], test: &[[f64; 3]], width: usize, options
         largest.iter_mut().zip(errors).for_each(|(most, error)| *most = most.max(error));
     }
     largest
+}
+
+/// [`flip_ldr`] or [`flip_hdr`].
+pub type Flip = fn(&[[f64; 3]], &[[f64; 3]], usize, FlipOptions) -> Vec<f64>;
+
+/// What FLIP says of noise alone: of a reference and itself with an error in each channel, drawn from a normal distribution
+/// of the standard error of the difference of two pictures. A picture whose mean FLIP is no larger than the mean of this
+/// is not shown to differ. The channels' errors are taken as independent, and so are the pixels'. The same for the same
+/// pictures; pixels without a standard error have none.
+pub fn flip_of_noise(
+    flip: Flip,
+    reference: &[[f64; 3]],
+    standard_error: &[[f64; 3]],
+    width: usize,
+    options: FlipOptions,
+) -> Vec<f64> {
+    let noisy = |(pixel, value): (usize, &[f64; 3])| -> [f64; 3] {
+        let error = standard_error.get(pixel).copied().unwrap_or_default();
+        std::array::from_fn(|c| {
+            // Box and Muller 1958, "A Note on the Generation of Random Normal Deviates"; 1 - u is never 0.
+            let [u, v] = Random::new(0, pixel as u64, c as u64).pair();
+            value[c] + error[c] * (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+        })
+    };
+    let test: Vec<[f64; 3]> = reference.iter().enumerate().map(noisy).collect();
+    flip(reference, &test, width, options)
 }
 
 /// The stops at which a picture of radiance is looked at.

@@ -69,3 +69,28 @@ fn the_authors_program_says_the_same() {
     let black_white = mean(&flip_ldr(&flat([0.0; 3]), &flat([1.0; 3]), 32, options));
     assert!((black_white - 0.967_386_5).abs() < 1e-5, "{black_white}");
 }
+
+/// A picture with noise of a known size is as far away as that noise is said to be, and one that is wrong as well is farther.
+#[test]
+fn noise_is_told_from_a_difference() {
+    let (width, height) = (32, 32);
+    let reference: Vec<[f64; 3]> = (0..width * height).map(|i| [0.3, 0.4, 0.2 + (i % 8) as f64 * 0.05]).collect();
+    let error = vec![[0.02; 3]; reference.len()];
+    let options = FlipOptions::default();
+    let shifted = |by: f64| -> Vec<[f64; 3]> {
+        let of = |(i, pixel): (usize, &[f64; 3])| {
+            let mut random = crate::random::Random::new(5, i as u64, 0);
+            // Twelve even numbers make a normal one.
+            pixel.map(|x| x + by + 0.02 * ((0..12).map(|_| random.number()).sum::<f64>() - 6.0))
+        };
+        reference.iter().enumerate().map(of).collect()
+    };
+    for flip in [flip_ldr, flip_hdr] {
+        let noise = mean(&flip_of_noise(flip, &reference, &error, width, options));
+        let same = mean(&flip(&reference, &shifted(0.0), width, options));
+        let other = mean(&flip(&reference, &shifted(0.1), width, options));
+        assert!((same / noise - 1.0).abs() < 0.1 && other > 2.0 * noise, "{noise} {same} {other}");
+        let silent = flip_of_noise(flip, &reference, &[], width, options);
+        assert!(silent.iter().all(|error| *error == 0.0));
+    }
+}
