@@ -1,5 +1,5 @@
-//! Time from document to WGSL for a material of 30 nodes with four maps in an environment, with and without naga's
-//! validation, numbers live and folded.
+//! Time from document to WGSL for materials of 30 and of 1,002 nodes with four maps in an environment, with and without naga's
+//! validation, numbers live and folded. Promised, without naga: 1 ms and 15 ms.
 
 use std::hint::black_box;
 
@@ -10,8 +10,8 @@ use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput};
 
-/// Four maps, and between the albedo and the surface a chain of nodes of which every third is a noise that weighs a mix.
-fn thirty_nodes() -> Document {
+/// Four maps, and between the albedo and the surface a chain of steps of three nodes: a noise that weighs a mix with a product.
+fn chain(steps: usize) -> Document {
     let image = |id: &str, space: &str| {
         let picture = format!(r#"{{"image": {{"file": "{id}.png", "color_space": "{space}"}}}}"#);
         format!(r#""{id}": {{"node": "textures/image", "label": "{id} map", "values": {picture}}}"#)
@@ -31,7 +31,7 @@ fn thirty_nodes() -> Document {
         link("bend.out", "surface.normal"),
     ];
     let mut from = "albedo.color".to_owned();
-    for step in 0..8 {
+    for step in 0..steps {
         nodes.push(format!(
             r#""noise{step}": {{"node": "procedural/value_noise_2d", "values": {{"scale": {}}}}},
                "tint{step}": {{"node": "math/multiply", "label": "Tint {step}", "values": {{"b": [0.9, 0.8, 0.7]}}}},
@@ -46,17 +46,16 @@ fn thirty_nodes() -> Document {
     }
     links.push(link(&from, "surface.base_color"));
     let json = format!(
-        r#"{{"halfvector": 1, "name": "Thirty nodes", "nodes": {{{}}}, "links": [{}]}}"#,
+        r#"{{"halfvector": 1, "name": "A chain", "nodes": {{{}}}, "links": [{}]}}"#,
         nodes.join(","),
         links.join(",")
     );
     let document = halfvector_graph::file::from_json(&json).expect("a sound document");
-    assert_eq!(document.graph.nodes.len(), 30);
+    assert_eq!(document.graph.nodes.len(), 6 + 3 * steps);
     document
 }
 
 fn codegen(criterion: &mut Criterion) {
-    let document = thirty_nodes();
     let library = Library::standard();
     let needs = Needs {
         directional_lights: 0,
@@ -66,19 +65,23 @@ fn codegen(criterion: &mut Criterion) {
         output: ShaderOutput::Radiance,
         methods: Methods::default(),
     };
-    let mut group = criterion.benchmark_group("codegen, 30 nodes, four maps, environment");
-    for (name, fold) in [("export", Fold::Export), ("live", Fold::Live)] {
-        let make = || shader(black_box(&document), library, &needs, fold).expect("a shader");
-        group.bench_function(format!("{name}, without validation"), |b| b.iter(make));
-        group.bench_function(format!("{name}, with validation"), |b| {
-            b.iter(|| {
-                let shader = make();
-                validate(&shader).expect("valid");
-                shader
+    for steps in [8, 332] {
+        let document = chain(steps);
+        let nodes = document.graph.nodes.len();
+        let mut group = criterion.benchmark_group(format!("codegen, {nodes} nodes, four maps, environment"));
+        for (name, fold) in [("export", Fold::Export), ("live", Fold::Live)] {
+            let make = || shader(black_box(&document), library, &needs, fold).expect("a shader");
+            group.bench_function(format!("{name}, without validation"), |b| b.iter(make));
+            group.bench_function(format!("{name}, with validation"), |b| {
+                b.iter(|| {
+                    let shader = make();
+                    validate(&shader).expect("valid");
+                    shader
+                });
             });
-        });
+        }
+        group.finish();
     }
-    group.finish();
 }
 
 criterion_group!(benches, codegen);

@@ -13,6 +13,49 @@ use crate::support::required;
 /// How long an answer or a page may take: a software device draws, on a machine that has other work.
 const PATIENCE: Duration = Duration::from_secs(90);
 
+/// Set where the pictures that a browser's are held against are drawn by the device that the browser draws with.
+const ONE_DEVICE: &str = "HALFVECTOR_ONE_DEVICE";
+
+/// Drivers of the software device that Chromium brings.
+const DRIVERS: [&str; 3] = [
+    "/usr/lib/chromium/vk_swiftshader_icd.json",
+    "/usr/lib/chromium-browser/vk_swiftshader_icd.json",
+    "/opt/google/chrome/vk_swiftshader_icd.json",
+];
+
+/// Whether both pictures of a comparison come from one device: then nothing but the text can make them differ.
+pub(crate) fn on_one_device() -> bool {
+    required(ONE_DEVICE)
+}
+
+/// The comparisons with browsers again, wgpu drawing with the browser's own device: what differs on two devices is the devices', and
+/// on one of them nothing does. In another process, since a driver is chosen when a process begins.
+#[test]
+fn on_the_browsers_own_device_the_pictures_are_the_same() {
+    let Some(driver) = DRIVERS.iter().find(|driver| Path::new(driver).exists()) else {
+        println!("skipped: no browser has brought a device that wgpu can draw with");
+        return;
+    };
+    if on_one_device() {
+        return;
+    }
+    let output = Command::new(std::env::current_exe().expect("this program"))
+        .args([
+            "--nocapture",
+            "--exact",
+            "web::a_browser_draws_what_wgpu_draws",
+            "drawn::glsl_es_draws_what_wgsl_draws",
+        ])
+        .env(ONE_DEVICE, "1")
+        .env("VK_DRIVER_FILES", driver)
+        .env("VK_ICD_FILENAMES", driver)
+        .output()
+        .expect("it runs again");
+    let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    println!("{said}");
+    assert!(output.status.success(), "on one device the pictures differ");
+}
+
 /// A running browser with a page. It ends when this is dropped.
 pub(crate) struct Browser {
     process: Child,

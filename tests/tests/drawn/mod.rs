@@ -13,7 +13,7 @@ mod inputs;
 use halfvector_codegen::target::{OutputFile, export, target};
 use serde_json::{Value, json};
 
-use crate::browser::Browser;
+use crate::browser::{Browser, on_one_device};
 use crate::golden::{Golden, goldens};
 use device::Device;
 use inputs::{Inputs, SIZE, sphere};
@@ -101,7 +101,9 @@ fn glsl_es_draws_what_wgsl_draws() {
         (off, count) = (off + more, count + pixels);
     }
     println!("GLSL ES 3.00 by WebGL 2 beside {}: {off} of {count} pixels are more than 1/255 apart", device.name);
-    assert!(off * 200 <= count, "GLSL draws another picture: {off} of {count} pixels");
+    // Devices filter images in their own way, and cut out at edges that lie between two pixels.
+    let share = if on_one_device() { 5000 } else { 200 };
+    assert!(off * share <= count, "GLSL draws another picture: {off} of {count} pixels");
 }
 
 /// A golden as the page takes it: both stages, and what each name in them is fed with.
