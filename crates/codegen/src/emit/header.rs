@@ -80,6 +80,7 @@ fn methods(plan: &Plan, needs: &Needs) -> String {
         }
         "sheen" => plan.sheen && environment,
         "specular_occlusion" => (plan.specular || plan.coat) && plan.occlusion,
+        "specular_aa" => plan.is_filtered,
         "horizon" => plan.horizon || plan.coat_horizon,
         "anisotropy" => plan.anisotropy && environment,
         "irradiance" => plan.reads_irradiance() || (plan.sheen && environment),
