@@ -48,6 +48,7 @@ pub const FILES: &[File] = files![
     "brdf/metallic_roughness.wgsl",
     "brdf/multiscatter.wgsl",
     "brdf/sheen.wgsl",
+    "brdf/specular_aa.wgsl",
     "brdf/thin_film.wgsl",
     "brdf/visibility.wgsl",
     "color.wgsl",

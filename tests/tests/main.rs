@@ -20,6 +20,7 @@ mod normal_tangent_texels;
 mod raster;
 mod relief;
 mod spaces;
+mod specular_aa;
 mod support;
 mod tidy;
 mod truth;

@@ -48,6 +48,7 @@ mod real;
 pub mod sampling;
 pub mod sampling_bounded;
 pub mod sheen;
+pub mod specular_aa;
 pub mod thin_film;
 pub mod vector;
 pub mod visibility;

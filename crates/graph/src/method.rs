@@ -179,6 +179,24 @@ pub const TERMS: &[Term] = &[
         report: "none",
     },
     Term {
+        name: "specular_aa",
+        help: "roughness for a normal that turns within a pixel, so that sharp highlights do not sparkle",
+        methods: &[
+            method("none", None, "the surface's own"),
+            method(
+                "box",
+                Some("perceptual_roughness_filtered_box"),
+                "variance over the pixel's square: alpha^2 + (|dn/dx|^2 + |dn/dy|^2) / 12",
+            ),
+            method(
+                "tokuyoshi",
+                Some("perceptual_roughness_filtered_tokuyoshi"),
+                "Tokuyoshi and Kaplanyan 2019: under a Gaussian filter, 1/pi in the place of 1/12",
+            ),
+        ],
+        report: "none",
+    },
+    Term {
         name: "reflection",
         help: "where a rough surface's reflection of the environment is looked up",
         methods: &[

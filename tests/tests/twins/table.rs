@@ -20,7 +20,7 @@ use halfvector_brdf::lobe_transmission::{
 };
 use halfvector_brdf::{
     anisotropic, beckmann, coupling, dfg, diffuse, fresnel, ggx, math, metallic_roughness, multiscatter, sheen,
-    thin_film, visibility,
+    specular_aa, thin_film, visibility,
 };
 use halfvector_ibl::{environment, occlusion};
 use halfvector_maps::{blend, color, derivative, height, normal, octahedral, parallax, texel};
@@ -256,6 +256,9 @@ pub(crate) const TWINS: &[Twin] = &[
     // A GPU's log2 has an absolute error of 2^-21 near 1, which the exponent 1 / alpha multiplies.
     twin!("brdf/sheen.wgsl" "d_charlie", [HalfAngle, Range(0.02, 1.0)], 512.0, 0.01, FLOAT, |x| [sheen::d_charlie(x[0], x[1], x[2])]),
     twin!("brdf/sheen.wgsl" "v_neubelt", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [sheen::v_neubelt(x[0], x[1], x[2], x[3])]),
+    twin!("brdf/specular_aa.wgsl" "perceptual_roughness_filtered_box", [Roughness, Point(1.0), Point(1.0)], 8.0, 0.0, DOUBLE, |x| [specular_aa::perceptual_roughness_filtered_box(x[0], v(x, 1), v(x, 4))]),
+    twin!("brdf/specular_aa.wgsl" "perceptual_roughness_filtered_tokuyoshi", [Roughness, Point(1.0), Point(1.0)], 8.0, 0.0, DOUBLE, |x| [specular_aa::perceptual_roughness_filtered_tokuyoshi(x[0], v(x, 1), v(x, 4))]),
+    twin!("brdf/specular_aa.wgsl" "perceptual_roughness_widened", [Range(-0.5, 1.5), Range(-0.1, 0.4)], 8.0, 0.0, DOUBLE, |x| [specular_aa::perceptual_roughness_widened(x[0], x[1])]),
     twin!("brdf/thin_film.wgsl" "f_thin_film", [Range(1.0, 3.0), Range(0.0, 1000.0), Color(0.2, 4.0), Color(0.0, 6.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film::f_thin_film(x[0], x[1], v(x, 2), v(x, 5), x[8])),
     twin!("brdf/thin_film.wgsl" "f_thin_film_dielectric", [Range(1.0, 3.0), Range(0.0, 1000.0), Color(1.0, 4.0), Cosine], 1024.0, 1.0, FLOAT, |x| thin_film::f_thin_film_dielectric(x[0], x[1], v(x, 2), x[5])),
     twin!("brdf/visibility.wgsl" "v_cook_torrance", [Cosine, Cosine, Cosine, Alpha], 8.0, 0.0, DOUBLE, |x| [visibility::v_cook_torrance(x[0], x[1], x[2], x[3])]),

@@ -110,6 +110,7 @@ pub(crate) fn methods(plan: &Plan, needs: &Needs) -> Vec<(&'static str, &'static
         }
         "sheen" => plan.sheen && environment,
         "specular_occlusion" => (plan.specular || plan.coat) && plan.occlusion,
+        "specular_aa" => plan.is_filtered,
         "horizon" => plan.horizon || plan.coat_horizon,
         "anisotropy" => plan.anisotropy && environment,
         "irradiance" => plan.reads_irradiance() || (plan.sheen && environment),

@@ -68,6 +68,8 @@ pub(crate) struct Plan {
     pub(crate) height: bool,
     pub(crate) derived_normal: bool,
     pub(crate) double_sided: bool,
+    /// Whether the turn of a normal within a pixel goes into the roughness.
+    pub(crate) is_filtered: bool,
     /// Whether a lobe looks at the direction to the viewer.
     pub(crate) looks_at_view: bool,
     pub(crate) dropped: Vec<Dropped>,
@@ -305,11 +307,35 @@ pub(crate) fn specialise(
         let f0 = stage.arena.own(call, Type::F32, "coat_f0");
         stage.roots.insert("coat_f0", f0);
     }
+    if let Some(function) = needs.methods.get("specular_aa").function.filter(|_| plan.is_filtered) {
+        filter_roughness(stage, &plan, function);
+    }
     keep_wanted(stage, &plan);
     if !plan.height {
         program.vertex = Stage::default();
     }
     plan
+}
+
+/// The roughness of each lobe with its normal's turn within the pixel.
+fn filter_roughness(stage: &mut Stage<'_>, plan: &Plan, function: &'static str) {
+    let base = plan.specular || plan.transmission;
+    for (wanted, roughness, otherwise, normal, name) in [
+        (base, "perceptual_roughness", 0.5, "normal", "filtered_roughness"),
+        (plan.coat, "coat_roughness", 0.0, "coat_normal", "filtered_coat_roughness"),
+    ] {
+        if !wanted {
+            continue;
+        }
+        let own = input(stage, roughness, Type::F32, otherwise);
+        let normal =
+            stage.root(normal).unwrap_or_else(|| stage.arena.own(Expr::Context("world_normal"), Type::Vec3, ""));
+        let mut along = |name| stage.arena.own(Expr::Builtin { name, arguments: vec![normal] }, Type::Vec3, "");
+        let arguments = vec![own, along("dpdx"), along("dpdy")];
+        let filtered = Expr::Call { function, generic: None, arguments };
+        let filtered = stage.arena.own(filtered, Type::F32, name);
+        stage.roots.insert(roughness, filtered);
+    }
 }
 
 /// How metallic a surface is known to be.
@@ -413,6 +439,8 @@ fn decide(
     decide_height(&mut plan, &known, needs, lit);
     let mirror = plan.environment.is_some() && (plan.specular || needs.methods.is("irradiance", "last_level"));
     let layered = plan.coat || plan.sheen || plan.transmission;
+    plan.is_filtered =
+        (plan.specular || plan.transmission || plan.coat) && needs.methods.get("specular_aa").function.is_some();
     plan.looks_at_view = plan.specular || mirror || layered || !needs.methods.is("diffuse", "lambert");
     plan
 }
