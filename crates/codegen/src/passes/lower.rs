@@ -178,7 +178,7 @@ impl<'a, 't> Lowering<'a, 't> {
                 return source.and_then(|source| self.calls.get(&source)).copied().ok_or(CodegenError::NoSurface);
             }
         };
-        let is_open = node == self.types.surface && self.open == Some(def.name.as_str());
+        let is_open = self.types.gives_surface(node) && self.open == Some(def.name.as_str());
         if let (Some(Source::Input { node, input }), false) = (self.types.sources[node][index], is_open) {
             let id = self.value(arena, table, node, input)?;
             return Ok(arena.convert(id, ty));

@@ -8,6 +8,7 @@ use crate::{Effort, Row};
 use halfvector_ibl::environment::{
     environment_sample, environment_sample_hermite, irradiance_sh2, lod_geometric, lod_linear, lod_report,
 };
+use halfvector_ibl::sh::{ShOrder, ShWindow, irradiance_from_radiance_sh};
 use halfvector_ibl::{
     BakeOptions, BakedEnvironment, LevelMap, LoadedEnvironment, Prefilter, Quadrature, Quality, Source, bake,
     direction_from_face, sky, studio,
@@ -163,10 +164,8 @@ fn seen(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Qua
         .collect()
 }
 
-/// Diffuse light from any direction: the cube, nine coefficients as they are and windowed, and the report's last level.
-///
-/// A third degree adds nothing: the cosine lobe has none (Ramamoorthi and Hanrahan 2001), so that "SH3", nine coefficients in the
-/// count that begins at 1, is `sh2` here.
+/// Diffuse light from any direction: the cube, harmonics to degree 1, 2 and 3 as they are and windowed, and the report's last
+/// level. A third degree adds nothing: the cosine lobe has none (Ramamoorthi and Hanrahan 2001).
 fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Quadrature) -> Vec<Row> {
     let domain = format!("{name}: irradiance over pi at any direction; relative error against a sum over texels");
     let points: Vec<[f64; 3]> = (0..effort.pick(60, 1000)).map(direction).collect();
@@ -174,13 +173,16 @@ fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &
     let baked = bake(environment, &BakeOptions { size: 64, ..BakeOptions::default() });
     let report = bake(environment, &BakeOptions { level_map: LevelMap::Report, ..BakeOptions::default() });
     let harmonics = |coefficients: [[f32; 4]; 9], dir: [f64; 3]| irradiance_sh2(coefficients, dir.map(|x| x as f32));
-    let (plain, windowed) = (baked.irradiance_sh_padded(), windowed(baked.irradiance_sh_padded()));
+    let plain = baked.irradiance_sh_padded();
+    let of_radiance = |order, window, dir| irradiance_from_radiance_sh(&baked.radiance_sh, order, window, dir);
     type Read<'a> = (&'a str, u64, &'a dyn Fn([f64; 3]) -> [f32; 3]);
-    let methods: [Read<'_>; 5] = [
+    let methods: [Read<'_>; 7] = [
         ("cube", 8 * baked.irradiance_over_pi.texels.len() as u64, &|dir| baked.irradiance_over_pi.sample(dir)),
         ("sh2", 144, &|dir| harmonics(plain, dir)),
         ("sh1, four coefficients", 64, &|dir| harmonics(first_order(plain), dir)),
-        ("sh2 windowed", 144, &|dir| harmonics(windowed, dir)),
+        ("sh2 windowed", 256, &|dir| of_radiance(ShOrder::Two, ShWindow::Hann, dir)),
+        ("sh3", 256, &|dir| of_radiance(ShOrder::Three, ShWindow::None, dir)),
+        ("sh3 windowed", 256, &|dir| of_radiance(ShOrder::Three, ShWindow::Hann, dir)),
         ("last_level", 8 * report.radiance[5].texels.len() as u64, &|dir| report.radiance[5].sample(dir)),
     ];
     let mut runs: Vec<_> =
@@ -207,14 +209,5 @@ fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &
 /// The coefficients of degrees 0 and 1 alone.
 fn first_order(mut coefficients: [[f32; 4]; 9]) -> [[f32; 4]; 9] {
     coefficients[4..].fill([0.0; 4]);
-    coefficients
-}
-
-/// Hann's window over degrees 0, 1, 2: (1 + cos(pi l / 3)) / 2 (Sloan 2008, "Stupid Spherical Harmonics (SH) Tricks").
-fn windowed(mut coefficients: [[f32; 4]; 9]) -> [[f32; 4]; 9] {
-    for (k, coefficient) in coefficients.iter_mut().enumerate() {
-        let factor = [1.0, 0.75, 0.25][(k > 0) as usize + (k > 3) as usize];
-        coefficient.iter_mut().for_each(|x| *x *= factor);
-    }
     coefficients
 }
