@@ -88,6 +88,8 @@ fn every_file_is_listed_once_and_sorted() {
     let mut found: Vec<String> = found
         .iter()
         .map(|path| path.strip_prefix(root).expect("below the root").to_string_lossy().replace('\\', "/"))
+        // What stands there is put in front of the library's text, and is none of it.
+        .filter(|path| !path.starts_with("src/"))
         .collect();
     found.sort();
     let listed: Vec<&str> = FILES.iter().map(|f| f.path).collect();
