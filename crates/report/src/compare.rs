@@ -44,6 +44,10 @@ impl Change {
         let [term, method, domain] = [&row.term, &row.method, &row.domain].map(String::clone);
         Change { what, term, method, domain, figures }
     }
+
+    fn is_of(&self, row: &Row) -> bool {
+        [&self.term, &self.method, &self.domain] == [&row.term, &row.method, &row.domain]
+    }
 }
 
 /// What is worse in `new` than in `old`, among the rows of the parts that both hold.
@@ -60,10 +64,29 @@ pub fn changes(old: &Report, new: &Report) -> Vec<Change> {
     if old.effort == new.effort {
         changes.extend(pairs.iter().flat_map(|&(old, new)| less_accurate(old, new)));
     }
-    let terms: HashSet<&str> = new.rows.iter().map(|row| row.term.as_str()).collect();
-    let gone = old.rows.iter().filter(|row| terms.contains(row.term.as_str()) && of(row).is_none());
+    let is_measured = |part: &str| new.parts.iter().any(|name| name == part);
+    let is_whole = old.parts.iter().all(|part| is_measured(part));
+    let was_measured = |row: &Row| if row.part.is_empty() { is_whole } else { is_measured(&row.part) };
+    let gone = old.rows.iter().filter(|row| was_measured(row) && of(row).is_none());
     changes.extend(gone.map(|row| Change::of("gone", row, "it has no row any more".to_owned())));
     changes
+}
+
+/// What is said of times; of all else a second run would say the same.
+const SLOWER: &str = "slower";
+
+/// The parts of `new` to measure again, for something in them seems to be slower.
+pub fn doubtful<'r>(changes: &[Change], new: &'r Report) -> HashSet<&'r str> {
+    let is_doubted = |row: &&Row| changes.iter().any(|change| change.what == SLOWER && change.is_of(row));
+    new.rows.iter().filter(is_doubted).map(|row| row.part.as_str()).collect()
+}
+
+/// Takes out what was slower once and is not in `again`, another run of the same.
+pub fn confirm(changes: &mut Vec<Change>, again: &[Change]) {
+    let same = |a: &Change, b: &Change| [&a.term, &a.method, &a.domain] == [&b.term, &b.method, &b.domain];
+    changes.retain(|change| {
+        change.what != SLOWER || again.iter().any(|other| other.what == SLOWER && same(change, other))
+    });
 }
 
 fn slower(pairs: &[(&Row, &Row)]) -> Vec<Change> {
@@ -88,7 +111,7 @@ fn slower(pairs: &[(&Row, &Row)]) -> Vec<Change> {
                      {allowed:.2}",
                     ratio / machine
                 );
-                changes.push(Change::of("slower", old, figures));
+                changes.push(Change::of(SLOWER, old, figures));
             }
         }
     }
@@ -180,9 +203,44 @@ mod tests {
         new.rows[0].not_finite = Some(2);
         new.rows[1].error_rms = None;
         new.rows.pop();
+        (new.parts, new.rows[0].part) = (vec!["brdf".into()], "brdf".into());
         let found: Vec<_> = changes(&old, &new).iter().map(|c| c.what).collect();
         assert_eq!(found, ["more results that are no numbers", "less accurate", "gone"]);
         new.effort = Effort::Full;
         assert_eq!(changes(&old, &new).iter().map(|c| c.what).collect::<Vec<_>>(), ["gone"]);
+    }
+
+    /// A part that was not measured again has lost nothing.
+    #[test]
+    fn rows_of_other_parts_are_not_missed() {
+        let mut old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.3]);
+        old.parts = vec!["brdf".into(), "shaders".into()];
+        for (row, part) in old.rows.iter_mut().zip(["brdf", "brdf", "shaders"]) {
+            row.part = part.into();
+        }
+        let mut new = Report { parts: vec!["brdf".into()], ..old.clone() };
+        new.rows.truncate(2);
+        assert_eq!(changes(&old, &new), []);
+        new.rows.truncate(1);
+        assert_eq!(
+            changes(&old, &new).iter().map(|c| (c.what, c.method.as_str())).collect::<Vec<_>>(),
+            [("gone", "b")]
+        );
+    }
+
+    #[test]
+    fn what_is_slower_once_is_measured_again_and_told_when_it_stays_so() {
+        let mut old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.3]);
+        old.rows[2].part = "brdf".into();
+        let mut new = old.clone();
+        (new.rows[2].cost_ns, new.rows[0].error_rms) = (Some(8.0), Some(0.2));
+        let mut found = changes(&old, &new);
+        assert_eq!(found.iter().map(|c| c.what).collect::<Vec<_>>(), ["slower", "less accurate"]);
+        assert_eq!(doubtful(&found, &new), HashSet::from(["brdf"]));
+        let again = found.clone();
+        confirm(&mut found, &again);
+        assert_eq!(found.len(), 2);
+        confirm(&mut found, &[]);
+        assert_eq!(found.iter().map(|c| c.what).collect::<Vec<_>>(), ["less accurate"]);
     }
 }

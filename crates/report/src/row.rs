@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Row {
+    /// Name of the part that measured it; empty in rows of before parts were told.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub part: String,
     /// Term of shading, as `halfvector methods` names it where it is one of them.
     pub term: String,
     /// Name of the method.

@@ -143,7 +143,7 @@ fn example(path: &Path, renderer: Option<&Renderer>, kept: &Kept, effort: Effort
 
     let options = ReferenceOptions { width: *size, height: *size, shadows: false, ..ReferenceOptions::default() };
     let mut reference = Reference::new(scene, example.loaded.as_ref(), options).ok()?;
-    reference.add_samples(effort.pick(64, 1024) as u64, &|_| ()).ok()?;
+    reference.add_samples(effort.pick(64, 256) as u64, &|_| ()).ok()?;
     let picture = reference.picture();
     let (truth, noise) = (picture.radiance(), picture.standard_error);
     let errors = |row: &mut Row, picture: &Picture| fill(row, &radiance(picture), &truth, Some(&noise));
