@@ -32,7 +32,11 @@ const CODE: f32 = 1.0 / 255.0;
 
 /// The examples with names that end so, in order.
 fn examples(ending: &str) -> Vec<PathBuf> {
-    let folder = std::fs::read_dir(root().join("examples")).expect("examples/");
+    examples_in("examples", ending)
+}
+
+fn examples_in(folder: &str, ending: &str) -> Vec<PathBuf> {
+    let folder = std::fs::read_dir(root().join(folder)).unwrap_or_else(|e| panic!("{folder}: {e}"));
     let mut files: Vec<PathBuf> = folder.map(|entry| entry.expect("an entry").path()).collect();
     files.retain(|path| path.to_string_lossy().ends_with(ending));
     // The helmet's model is not in the project.
@@ -45,7 +49,7 @@ fn examples(ending: &str) -> Vec<PathBuf> {
 fn material(path: &Path) -> Scene {
     let document = halfvector_graph::file::load(path).unwrap_or_else(|e| panic!("{e}"));
     let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
-    Scene::from_material(document, &root().join("examples"), &sphere).unwrap_or_else(|e| panic!("{e}"))
+    Scene::from_material(document, path.parent().expect("a folder"), &sphere).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn baked(source: &EnvironmentSource) -> Option<BakedEnvironment> {
@@ -54,7 +58,11 @@ fn baked(source: &EnvironmentSource) -> Option<BakedEnvironment> {
 }
 
 fn on_cpu<F: Float>(scene: &Scene, environment: Option<&BakedEnvironment>) -> Picture {
-    let options = RasterOptions { width: SIZE, height: SIZE, samples_per_side: SIDE, fold: Fold::Export };
+    folded::<F>(scene, environment, Fold::Export)
+}
+
+fn folded<F: Float>(scene: &Scene, environment: Option<&BakedEnvironment>, fold: Fold) -> Picture {
+    let options = RasterOptions { width: SIZE, height: SIZE, samples_per_side: SIDE, fold };
     halfvector_raster::draw::<F>(scene, environment, &options, |_| {}).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -95,6 +103,25 @@ fn compare(scene: &Scene, cpu: &Picture, gpu: &Picture) -> (f64, f32) {
     let apart = inner.iter().filter(|&&d| d > CODE).count() as f64 / inner.len().max(1) as f64;
     let edges = boxed(&a).into_iter().zip(boxed(&b)).map(|(a, b)| difference(a, b)).fold(0.0, f32::max);
     (apart, edges)
+}
+
+/// Every example with the shader that has its numbers folded in and all it does not need left out, and with the one that
+/// keeps every number open: nowhere more than a code apart.
+#[test]
+fn every_example_looks_the_same_unspecialised() {
+    let studio = baked(&EnvironmentSource::Studio);
+    let mut nodes = examples_in("examples/nodes", ".material.json");
+    nodes.extend(examples(".material.json"));
+    for path in nodes {
+        let mut scene = material(&path);
+        scene.background = Background::None;
+        scene.environment = EnvironmentSource::Studio;
+        let [closed, open] = [Fold::Export, Fold::Live].map(|fold| folded::<f32>(&scene, studio.as_ref(), fold));
+        let (a, b) = (display(&scene, &closed), display(&scene, &open));
+        let most = a.into_iter().zip(b).map(|(a, b)| difference(a, b)).fold(0.0, f32::max);
+        println!("{}: {:.3} codes apart", path.display(), most / CODE);
+        assert!(most <= CODE, "{}: {} codes apart", path.display(), most / CODE);
+    }
 }
 
 /// What tells llvmpipe to choose mip levels and to filter as the specification says, not by its faster approximations,

@@ -4,6 +4,7 @@
 
 use std::collections::HashSet;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::read::material_from_json;
@@ -128,7 +129,8 @@ pub(super) fn load(path: &Path) -> Result<Loaded, FileError> {
         if chain.len() >= MAX_INSTANCE_DEPTH {
             return Err(in_file(path, InstanceError::TooDeep));
         }
-        let (material, _) = load_as(&next, material_from_json)
+        let (material, _) = stored(&next)
+            .and_then(|()| load_as(&next, material_from_json))
             .map_err(|source| in_file(user, InstanceError::Base { source: Box::new(source) }))?;
         match material {
             Material::Whole(document) => break *document,
@@ -144,6 +146,13 @@ pub(super) fn load(path: &Path) -> Result<Loaded, FileError> {
         set(&mut document, instance).map_err(|why| in_file(&path, why))?;
     }
     Ok(Loaded { document, bytes, is_instance: true })
+}
+
+/// Refuses what need not end, such as a pipe: nobody chose it but the file.
+fn stored(path: &Path) -> Result<(), FileError> {
+    let refused = |source| FileError::Read { path: path.into(), source };
+    let about = fs::metadata(path).map_err(refused)?;
+    if about.is_file() { Ok(()) } else { Err(refused(io::Error::other("it is no file that is stored"))) }
 }
 
 /// A file by which it is known again; as it is written where it is not there.
@@ -172,13 +181,15 @@ fn set(document: &mut Document, instance: Instance) -> Result<(), InstanceError>
     if let Some(name) = instance.name {
         document.name = name;
     }
+    let library = Library::standard().of(document);
+    // A value that fits leaves all types as they are.
+    let types = resolve_types(&document.graph, &library);
+    let mut fitting = Vec::with_capacity(instance.set.len());
     for (name, value) in instance.set {
         let Some(parameter) = document.parameters.iter().find(|parameter| parameter.name == name) else {
             return Err(unknown(document, name));
         };
         let (socket, range) = (parameter.socket.clone(), parameter.range);
-        let library = Library::standard().of(document);
-        let types = resolve_types(&document.graph, &library);
         let Some(ty) = types.get(&socket.node).and_then(|types| types.input(&socket.socket)) else {
             return Err(InstanceError::NoSocket { name, socket: socket.to_string() });
         };
@@ -196,6 +207,9 @@ fn set(document: &mut Document, instance: Instance) -> Result<(), InstanceError>
         {
             return Err(InstanceError::Range { name, given, low, high });
         }
+        fitting.push((socket, value));
+    }
+    for (socket, value) in fitting {
         if let Some(node) = document.graph.nodes.get_mut(&socket.node) {
             node.values.insert(socket.socket, value);
         }

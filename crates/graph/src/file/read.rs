@@ -38,6 +38,9 @@ pub fn group_from_json(text: &str) -> Result<GroupFile, FileError> {
     parsed(text, read_group_file)
 }
 
+/// Most bytes of all of a document's functions together: each is parsed when the document is opened.
+const MAX_FUNCTION_BYTES: usize = 256 << 10;
+
 fn parsed<T>(text: &str, read: impl FnOnce(Spanned) -> Result<T, Wrong>) -> Result<T, FileError> {
     if text.len() > MAX_BYTES {
         return Err(FileError::TooLarge);
@@ -81,7 +84,13 @@ fn read_instance(members: Vec<Member>, newer: bool) -> Result<Instance, Wrong> {
         match key.as_str() {
             "halfvector" => {}
             "name" => instance.name = Some(text(value, "name")?),
-            "base" => instance.base = text(value, "base")?,
+            "base" => {
+                let at = value.at;
+                instance.base = text(value, "base")?;
+                if instance.base.is_empty() {
+                    return wrong(at, "base", "it names no file; write the way from this file's folder to a material");
+                }
+            }
             "set" => {
                 for Member { key, value, .. } in object(value, "set")? {
                     let set = socket_value(&value, &format!("set.{key}"))?;
@@ -239,9 +248,20 @@ impl Reader {
             self.unknown.insert("functions".into(), value.json.into_plain());
             return Ok(());
         }
+        let at = value.at;
+        let mut bytes: usize = document.functions.values().map(String::len).sum();
         for Member { key, value, .. } in object(value, "functions")? {
             match lines(&value, &format!("functions.{key}")) {
                 Ok(text) => {
+                    bytes += text.len();
+                    if bytes > MAX_FUNCTION_BYTES {
+                        let most = MAX_FUNCTION_BYTES >> 10;
+                        return wrong(
+                            at,
+                            "functions",
+                            format!("together they are longer than {most} KiB; make them shorter"),
+                        );
+                    }
                     document.functions.insert(key, text);
                 }
                 Err(_) if self.newer => self.keep_in_object("functions", key, value.json.into_plain()),

@@ -69,7 +69,7 @@ pub fn read_function(id: &str, text: &str) -> Result<Arc<CustomFunction>, CodeEr
     type Known = HashMap<(String, String), Result<Arc<CustomFunction>, CodeError>>;
     static KNOWN: OnceLock<Mutex<Known>> = OnceLock::new();
     /// So many texts are remembered, all of them forgotten when there are more: typing makes a new one with each key.
-    const MAX_KNOWN: usize = 64;
+    const MAX_KNOWN: usize = 512;
     let known = KNOWN.get_or_init(Mutex::default);
     let key = (id.to_string(), text.to_string());
     if let Some(answer) = known.lock().ok().and_then(|known| known.get(&key).cloned()) {

@@ -200,6 +200,12 @@ fn hostile_texts_are_refused_at_once() {
         "nested too deeply",
     );
     refused(&" ".repeat(MAX_BYTES + 1), "longer than 64 KiB");
+    let two_thirds = format!("[{:?}]", " ".repeat(200 << 10));
+    let document = format!(
+        r#"{{"halfvector": 1, "name": "", "nodes": {{}}, "functions": {{"a": {two_thirds}, "b": {two_thirds}}}}}"#
+    );
+    let error = crate::file::from_json(&document).expect_err("a refusal").to_string();
+    assert!(error.contains("together they are longer than 256 KiB"), "{error}");
     refused(&text("/* never closed", ""), "does not end");
     refused("", "there is no function");
     refused("fn f() {}", "write `/// @node custom/test`");

@@ -120,3 +120,14 @@ fn a_long_row_of_instances_ends() {
     load(&file(9)).expect("31 of them");
     assert!(Path::new(&file(40)).exists());
 }
+
+/// A folder in the place of the base, and no name: neither is opened.
+#[test]
+fn a_base_is_a_stored_file() {
+    let why = |base: &str| {
+        let folder = with("a.material.json", &format!(r#"{{"halfvector": 1, "base": {base:?}}}"#));
+        load(&folder.path().join("a.material.json")).expect_err("a refusal").to_string()
+    };
+    assert!(why("base").contains("it is no file that is stored"), "{}", why("base"));
+    assert!(why("").contains("it names no file"), "{}", why(""));
+}
