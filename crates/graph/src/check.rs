@@ -17,7 +17,7 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::FORMAT_VERSION;
-use crate::document::{AlphaMode, Document, Graph, Link, NodeId, function_of};
+use crate::document::{AlphaMode, Document, Graph, Link, NodeId, SURFACE_MIX, function_of};
 use crate::flatten::{self, Flat, FlattenError, find, flatten};
 use crate::group::{Extents, extents};
 use crate::library::Library;
@@ -29,6 +29,8 @@ use crate::wiring::Wiring;
 
 /// Most nodes that may reach the surface: more make no shader that a driver takes.
 pub const MAX_LIVE_NODES: usize = 20_000;
+/// Most nodes that mix surfaces; each is worth about twenty others.
+pub const MAX_MIXTURES: usize = 1000;
 
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -320,6 +322,15 @@ impl<'a> Checker<'a> {
 
     /// Too many nodes, or groups too deep in each other.
     fn size(&mut self, live: &[String], extents: &Extents) {
+        let is_mix = |id: &&String| self.document.graph.nodes.get(*id).is_some_and(|node| node.node == SURFACE_MIX);
+        let mixtures = live.iter().filter(is_mix).count();
+        if mixtures > MAX_MIXTURES {
+            let message = format!(
+                "{mixtures} mixtures reach the surface, each of all that a surface has; no shader has more than {MAX_MIXTURES}: mix colours \
+                 and numbers instead, or bake parts into pictures"
+            );
+            self.of_document(Severity::Error, message);
+        }
         let message = match flatten::count(self.document, live, extents) {
             Ok(nodes) if nodes <= MAX_LIVE_NODES => return,
             Ok(nodes) if nodes == live.len() => format!(

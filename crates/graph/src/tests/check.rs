@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 
 use super::{any_document, document, link, small, socket};
-use crate::check::{Problem, Severity, check, node_label, surface_node};
-use crate::document::{AlphaMode, Document, Parameter};
+use crate::check::{MAX_MIXTURES, Problem, Severity, check, node_label, surface_node};
+use crate::document::{AlphaMode, Document, Node, Parameter, SURFACE_MIX};
 use crate::value::{ColorSpace, ImageRef, Value};
 
 fn told(document: &Document) -> Vec<Problem> {
@@ -235,4 +235,22 @@ proptest! {
         }
         check(&document, crate::library::Library::standard());
     }
+}
+
+/// Each is as much as twenty other nodes: a shader of ten thousand would take seconds to write.
+#[test]
+fn too_many_mixtures_are_refused() {
+    let with = |count: usize| {
+        let mut d = Document::with_surface("mixtures");
+        for i in 0..count {
+            d.graph.nodes.insert(format!("m{i}"), Node::new(SURFACE_MIX));
+            let before = if i == 0 { "surface.out".to_owned() } else { format!("m{}.out", i - 1) };
+            d.graph.links.push(link("surface.out", &format!("m{i}.a")));
+            d.graph.links.push(link(&before, &format!("m{i}.b")));
+        }
+        check(&d, crate::library::Library::standard())
+    };
+    assert_eq!(with(MAX_MIXTURES), []);
+    let problems = with(MAX_MIXTURES + 1);
+    assert!(problems.iter().any(|p| p.message.contains("no shader has more than 1000")), "{problems:?}");
 }
