@@ -55,7 +55,7 @@ pub(super) fn functions() -> impl Iterator<Item = &'static str> {
 /// The library's items that a text of these items reaches, as text; empty where it reaches none.
 ///
 /// # Errors
-/// Where it names a generic function, and why it cannot.
+/// Where it names a generic function, or what the text's names hide is needed, and why it cannot.
 pub(super) fn reached(text: &str, items: &[Item]) -> Result<String, (Range<usize>, String)> {
     let own: HashSet<&str> = items.iter().map(|item| item.name.as_str()).collect();
     let mut open: Vec<&str> = Vec::new();
@@ -77,7 +77,15 @@ pub(super) fn reached(text: &str, items: &[Item]) -> Result<String, (Range<usize
         if let Some(item) = known().get(name)
             && wanted.insert((item.place, item.text))
         {
-            open.extend(item.dependencies.iter().map(String::as_str));
+            for needed in &item.dependencies {
+                if let Some(clash) = items.iter().find(|item| item.name == *needed) {
+                    let message = format!(
+                        "the library has its own `{needed}`, which its `{name}` needs, and that is called here; give yours another name"
+                    );
+                    return Err((clash.code_start..clash.end, message));
+                }
+                open.push(needed);
+            }
         }
     }
     Ok(wanted.into_iter().map(|(_, text)| format!("{text}\n")).collect())

@@ -79,6 +79,15 @@ fn the_librarys_functions_can_be_called() {
     }
 }
 
+/// A name of the user's hides one that the library's own text needs: told at the user's.
+#[test]
+fn a_name_that_the_library_needs_is_told_where_it_stands() {
+    let body = "    return energy_compensation_fdez_aguera(vec3f(x), vec3f(1.0), vec2f(x)).x;";
+    let e = error(&text(body, "const A: f32 = 1.0;\nfn average_fresnel(x: f32) -> f32 {\n    return x;\n}\n"));
+    assert_eq!((e.line, e.column), (2, 1), "{e}");
+    assert!(e.to_string().contains("its `energy_compensation_fdez_aguera` needs"), "{e}");
+}
+
 #[test]
 fn errors_point_into_the_users_text() {
     let source = text("    let a = 1.0;\n\treturn y + a;", "");
