@@ -9,11 +9,14 @@ use super::layout::levels_in_strip;
 use super::{Content, Fault, Limits, Picture, StoredLevels, StoredLobe, checked_texels, field, roughness_list};
 use crate::equirect::Equirect;
 use crate::ktx2::KEY_ROUGHNESS;
+use exr::block::UncompressedBlock;
+use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::block::lines::LineRef;
 use exr::block::reader::ChunksReader;
 use exr::meta::attribute::{AttributeValue, Chromaticities, EnvironmentMap, SampleType};
 use exr::meta::header::Header;
 use exr::prelude::{Vec2, f16};
+use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -33,14 +36,35 @@ fn read_part(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
     let (width, height) = (header.layer_size.width(), header.layer_size.height());
     let count = checked_texels(width as u64, height as u64, limits)?;
 
+    let mut missing = BTreeMap::new();
     let mut chunks = reader
-        .filter_chunks(false, |_, _, block| block.layer == part && block.level == Vec2(0, 0))
-        .map_err(|why| explained(why, "offset tables"))?
-        .sequential_decompressor(false);
+        .filter_chunks(false, |_, _, block| {
+            let wanted = block.layer == part && block.level == Vec2(0, 0);
+            if wanted {
+                missing.insert((block.pixel_position.y(), block.pixel_position.x()), block.pixel_size);
+            }
+            wanted
+        })
+        .map_err(|why| explained(why, "offset tables"))?;
+    let mut twice = None;
     // Only when the first block is sound: a header alone buys no memory.
     let mut pixels: Vec<[f32; 3]> = Vec::new();
-    while let Some(block) = chunks.decompress_next_block() {
-        let block = block.map_err(|why| explained(why, "pixels"))?;
+    while let Some(chunk) = chunks.read_next_chunk() {
+        let chunk = chunk.map_err(|why| explained(why, "pixels"))?;
+        let name = name_of_block(&chunk, chunks.headers()).map_err(|why| explained(why, "pixels"))?;
+        if is_empty(&chunk) {
+            return Err(field("pixels", format!("{name}: there are no bytes for them; the file is damaged")));
+        }
+        let block = UncompressedBlock::decompress_chunk(chunk, chunks.meta_data(), false)
+            .map_err(|why| explained(why, &format!("pixels, {name}")))?;
+        let Vec2(x, y) = block.index.pixel_position;
+        // An offset may lead to a chunk of another part or level; then one of this is missing in the end.
+        if block.index.layer != part || block.index.level != Vec2(0, 0) {
+            continue;
+        }
+        if missing.remove(&(y, x)).is_none() {
+            twice = Some(name);
+        }
         pixels.resize(count, [0.0; 3]);
         for line in block.lines(&list) {
             let Vec2(x, y) = line.location.position;
@@ -53,8 +77,10 @@ fn read_part(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
             }
         }
     }
-    if pixels.is_empty() {
-        return Err(Fault::Truncated("its pixels".to_owned()));
+    if let Some(((y, x), size)) = missing.pop_first() {
+        let gone = name_of_area(Vec2(x, y), size, width);
+        let twice = twice.map(|name| format!(", {name} twice")).unwrap_or_default();
+        return Err(field("pixels", format!("{gone} missing{twice}; the file is damaged, save or copy it again")));
     }
     let map = Equirect { width, height, pixels };
     let Some(text) = roughness else {
@@ -68,6 +94,33 @@ fn read_part(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
         StoredLevels { levels, lobe: StoredLobe::Ggx(roughness), slope: Vec::new(), irradiance_sh: None },
         notes,
     ))
+}
+
+/// Whether a chunk says that it has no bytes. Some of the decoders below make that black.
+fn is_empty(chunk: &Chunk) -> bool {
+    match &chunk.compressed_block {
+        CompressedBlock::ScanLine(block) => block.compressed_pixels_le.is_empty(),
+        CompressedBlock::Tile(block) => block.compressed_pixels_le.is_empty(),
+        CompressedBlock::DeepScanLine(_) | CompressedBlock::DeepTile(_) => false,
+    }
+}
+
+/// Which rows, and of tiles which columns, a chunk says that it holds.
+fn name_of_block(chunk: &Chunk, headers: &[Header]) -> exr::error::Result<String> {
+    let header = &headers[chunk.layer_index];
+    let place = header.get_block_data_indices(&chunk.compressed_block)?;
+    let area = header.get_absolute_block_pixel_coordinates(place)?;
+    Ok(name_of_area(area.position.to_usize("position")?, area.size, header.layer_size.width()))
+}
+
+/// Rows counted from 0 at the top, with columns where it is not all of them.
+fn name_of_area(Vec2(x, y): Vec2<usize>, size: Vec2<usize>, width: usize) -> String {
+    let span = |name: &str, first: usize, count: usize| match count {
+        1 => format!("{name} {first}"),
+        _ => format!("{name}s {first} to {}", first + count - 1),
+    };
+    let rows = span("row", y, size.height());
+    if size.width() == width { rows } else { format!("{} of {rows}", span("column", x, size.width())) }
 }
 
 /// The text that says that the picture is a strip of levels.

@@ -183,11 +183,19 @@ fn scan_line(rest: &mut &[u8], texels: &mut Vec<[u8; 4]>, length: usize) -> Resu
     let number = texels.len() / length;
     let ended = || Fault::Truncated(format!("line {number} of its pixels"));
     let first = *rest.first_chunk::<4>().ok_or_else(ended)?;
-    let new_style = (8..0x8000).contains(&length)
-        && first[..2] == [2, 2]
-        && usize::from(first[2]) << 8 | usize::from(first[3]) == length;
+    // Radiance writes lines of these lengths alone in the new coding, and no texel of its own starts with (2, 2, < 128).
+    let new_style = (8..0x8000).contains(&length) && first[..2] == [2, 2] && first[2] < 128;
     if !new_style {
         return old_line(rest, texels, length);
+    }
+    let stated = usize::from(first[2]) << 8 | usize::from(first[3]);
+    if stated != length {
+        return Err(field(
+            "resolution",
+            format!(
+                "lines of {length} texels, where line {number} says that it has {stated}; one of the two is damaged"
+            ),
+        ));
     }
     let mut data = &rest[4..];
     let start = texels.len();
@@ -349,6 +357,15 @@ mod tests {
         );
     }
 
+    /// A line too short for the new coding may start with its code; a texel of a long one may, but for its third byte.
+    #[test]
+    fn texels_like_a_code() {
+        let short = pixels(&file("-Y 1 +X 2", &[2, 2, 0, 136, 2, 2, 2, 136])).unwrap();
+        assert_eq!(short.pixels, [[2.0, 2.0, 0.0], [2.0; 3]]);
+        let long = pixels(&file("-Y 1 +X 9", &[2, 2, 128, 136].repeat(9))).unwrap();
+        assert_eq!(long.pixels, [[2.0, 2.0, 128.0]; 9]);
+    }
+
     #[test]
     fn lies_are_named() {
         for (bytes, part) in [
@@ -362,6 +379,10 @@ mod tests {
                 "run lengths of line 0",
             ),
             (file("-Y 1 +X 4", &[1, 1, 1, 4]), "run lengths of line 0"),
+            (
+                file("-Y 1 +X 9", &[2, 2, 4, 0, 128 + 9, 0]),
+                "resolution: lines of 9 texels, where line 0 says that it has 1024",
+            ),
             (b"#?RADIANCE\nFORMAT=jpeg\n\n".to_vec(), "FORMAT"),
             (b"#?RADIANCE".to_vec(), "truncated: its header"),
             (vec![b'#'; 70000], "header"),

@@ -15,6 +15,8 @@ const LEVELS: usize = 6;
 const SMALLEST: usize = 8;
 /// Up to the end of the coefficients.
 const HEADER: usize = 144;
+/// The headerSize that writers give.
+const USUAL_HEADER: usize = 256;
 
 pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<StoredLevels, Fault> {
     if bytes.starts_with(b"ERDH") {
@@ -60,7 +62,18 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<StoredLevels, Fault> 
         .collect();
     let texels: usize = sizes.iter().map(|size| 6 * size * size).sum();
     checked_texels(texels as u64, 1, Limits { max_edge: u64::MAX, ..limits })?;
-    let needed = data_at + texels * channels * coding.bytes();
+    let data_bytes = texels * channels * coding.bytes();
+    let needed = data_at + data_bytes;
+    // More than is needed, or what the usual header leaves: then it is not the end that is missing.
+    if bytes.len() > needed || bytes.len() == USUAL_HEADER + data_bytes && data_at != USUAL_HEADER {
+        return Err(field(
+            "headerSize",
+            format!(
+                "{data_at} and the levels' {data_bytes} bytes are not the file's {}; a size in the header is damaged",
+                bytes.len()
+            ),
+        ));
+    }
     if bytes.len() < needed {
         return Err(Fault::Truncated(format!("its levels: {needed} bytes are needed and {} are there", bytes.len())));
     }

@@ -19,6 +19,7 @@ use half::f16;
 use halfvector_maps::color::linear_from_srgb;
 use std::borrow::Cow;
 use std::io::Read;
+use std::ops::Range;
 
 pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
     let header = Header::parsed(bytes, limits)?;
@@ -133,6 +134,10 @@ impl Header {
         if bytes.len() < HEADER_BYTES + LEVEL_ENTRY_BYTES * count as usize {
             return Err(Fault::Truncated("its level index".to_owned()));
         }
+        if long(bytes, 72) != 0 {
+            let reason = format!("{} where supercompressionScheme {scheme} has no global data", long(bytes, 72));
+            return Err(field("sgdByteLength", reason));
+        }
         let descriptor = Descriptor::parsed(bytes, count as usize)?;
         descriptor.check(vk_format, type_size, coding)?;
         let mut header = Header {
@@ -146,10 +151,7 @@ impl Header {
         };
         let all: u64 = (0..count as usize).map(|level| header.level_texels(level) as u64).sum();
         checked_texels(all, 1, Limits { max_edge: u64::MAX, ..limits })?;
-        for level in 0..count as usize {
-            let entry = header.level_entry(bytes, level)?;
-            header.levels.push(entry);
-        }
+        header.levels = header.level_index(bytes, count as usize, key_value_range(bytes)?.end)?;
         Ok(header)
     }
 
@@ -157,8 +159,56 @@ impl Header {
         self.faces * (self.width >> level).max(1) * (self.height >> level).max(1)
     }
 
-    /// Where a level begins and ends, as the level index says, once that is found true.
-    fn level_entry(&self, bytes: &[u8], level: usize) -> Result<(usize, usize), Fault> {
+    /// Where each level begins and ends, as the level index says, once that is found true. They may stand in any order
+    /// behind the other parts, which end at `parts_end`.
+    fn level_index(&self, bytes: &[u8], count: usize, parts_end: usize) -> Result<Vec<(usize, usize)>, Fault> {
+        let entries =
+            (0..count).map(|level| self.level_entry(bytes, level)).collect::<Result<Vec<(u64, u64)>, Fault>>()?;
+        // Texels of a supercompressed file are not read in place.
+        let alignment = match self.compression {
+            Compression::None => self.coding.alignment(),
+            Compression::Zstandard | Compression::Zlib => 1,
+        };
+        // How long the file is when its levels stand as writers put them, the smallest first.
+        let whole = entries.iter().rev().try_fold(parts_end as u64, |at, (_, length)| {
+            at.checked_next_multiple_of(alignment).and_then(|at| at.checked_add(*length))
+        });
+        let is_cut = whole.is_none_or(|whole| whole > bytes.len() as u64);
+        let name = |level: usize| format!("byteOffset of level {level}");
+        for (level, &(offset, length)) in entries.iter().enumerate() {
+            if offset < parts_end as u64 {
+                return Err(field(
+                    name(level),
+                    format!("{offset} lies before byte {parts_end}, where the header and the key/values end"),
+                ));
+            }
+            if offset.checked_add(length).is_none_or(|end| end > bytes.len() as u64) {
+                return Err(if is_cut && offset < bytes.len() as u64 {
+                    Fault::Truncated(format!("level {level}"))
+                } else {
+                    let reason =
+                        format!("from {offset} its {length} bytes lie outside of the file of {} bytes", bytes.len());
+                    field(name(level), reason)
+                });
+            }
+            if !offset.is_multiple_of(alignment) {
+                return Err(field(name(level), format!("{offset} is no multiple of {alignment}, as its texels need")));
+            }
+        }
+        let mut order: Vec<usize> = (0..entries.len()).collect();
+        order.sort_by_key(|&level| entries[level].0);
+        for pair in order.windows(2) {
+            let [(before, length), (offset, _)] = [entries[pair[0]], entries[pair[1]]];
+            if before + length > offset {
+                let reason = format!("{offset} lies within level {}, the {length} bytes from {before}", pair[0]);
+                return Err(field(name(pair[1]), reason));
+            }
+        }
+        Ok(entries.into_iter().map(|(offset, length)| (offset as usize, (offset + length) as usize)).collect())
+    }
+
+    /// Where a level begins and how long it is, as the level index says, once its lengths are found true.
+    fn level_entry(&self, bytes: &[u8], level: usize) -> Result<(u64, u64), Fault> {
         let at = HEADER_BYTES + LEVEL_ENTRY_BYTES * level;
         let [offset, length, whole] = [0, 8, 16].map(|i| long(bytes, at + i));
         let needed = (self.level_texels(level) * self.coding.bytes()) as u64;
@@ -179,16 +229,7 @@ impl Header {
                 format!("{length} where the level has {needed}"),
             ));
         }
-        match offset.checked_add(length) {
-            Some(end) if offset >= HEADER_BYTES as u64 && end <= bytes.len() as u64 => {
-                Ok((offset as usize, end as usize))
-            }
-            _ if offset < bytes.len() as u64 => Err(Fault::Truncated(format!("level {level}"))),
-            _ => Err(field(
-                format!("byteOffset of level {level}"),
-                format!("{offset} lies outside of the file of {} bytes", bytes.len()),
-            )),
-        }
+        Ok((offset, length))
     }
 
     /// The texels of a level, face by face, without supercompression.
@@ -301,6 +342,16 @@ impl Coding {
         }
     }
 
+    /// The number that places of uncompressed levels are multiples of: the least that the bytes of a texel and 4 divide.
+    fn alignment(self) -> u64 {
+        let bytes = self.bytes() as u64;
+        match bytes % 4 {
+            0 => bytes,
+            2 => 2 * bytes,
+            _ => 4 * bytes,
+        }
+    }
+
     fn is_srgb(self) -> bool {
         matches!(self, Coding::Codes { srgb: true, .. })
     }
@@ -344,18 +395,30 @@ fn small_float(bits: u32, mantissa_bits: u32) -> f32 {
     f16::from_bits((bits << (10 - mantissa_bits)) as u16).to_f32()
 }
 
+/// Where the key/values lie: directly behind the descriptor, which has been found true.
+fn key_value_range(bytes: &[u8]) -> Result<Range<usize>, Fault> {
+    let [descriptor, descriptor_length, start, length] = [48, 52, 56, 60].map(|at| number(bytes, at) as usize);
+    let descriptor_end = descriptor + descriptor_length;
+    // Without key/values the place is 0.
+    if start != descriptor_end && (start, length) != (0, 0) {
+        return Err(field(
+            "kvdByteOffset",
+            format!("{start} is not {descriptor_end}, where the data format descriptor ends; the header is damaged"),
+        ));
+    }
+    if length > bytes.len() - descriptor_end {
+        return Err(field("kvdByteLength", "the key/values go beyond the file's end; the header is damaged"));
+    }
+    Ok(descriptor_end..descriptor_end + length)
+}
+
 /// The key/value data of a file.
 struct KeyValues<'a>(Vec<(&'a [u8], &'a [u8])>);
 
 impl<'a> KeyValues<'a> {
     fn parsed(bytes: &'a [u8]) -> Result<KeyValues<'a>, Fault> {
         let wrong = |what: &str, reason: &str| field(what, format!("{reason}; the header is damaged"));
-        let (start, length) = (number(bytes, 56) as usize, number(bytes, 60) as usize);
-        let Some(rest) = bytes.get(start..) else {
-            return Err(wrong("kvdByteOffset", "the key/values lie outside of the file"));
-        };
-        let mut rest =
-            rest.get(..length).ok_or_else(|| wrong("kvdByteLength", "the key/values go beyond the file's end"))?;
+        let mut rest = &bytes[key_value_range(bytes)?];
         let mut pairs = Vec::new();
         while rest.len() >= 4 {
             let length = number(rest, 0) as usize;

@@ -94,6 +94,60 @@ fn grey_alone_is_grey() {
     load(&file(vec![layer("x", Encoding::SMALL_LOSSLESS, chroma)]), "x.exr").expect_err("chroma is no grey");
 }
 
+/// A chunk without bytes, one given twice and one left out are named by their rows, and for tiles by their columns.
+#[test]
+fn chunks_come_once_each() {
+    let plain = |compression, blocks| {
+        let encoding = Encoding { compression, blocks, line_order: LineOrder::Increasing };
+        file(vec![layer("x", encoding, vec![("R", floats(0)), ("G", floats(1)), ("B", floats(2))])])
+    };
+    let error = |bytes: &[u8]| load(bytes, "x.exr").map(|_| ()).expect_err("refused").to_string();
+    let number = |bytes: &mut Vec<u8>, at: usize, value: i32| bytes[at..at + 4].copy_from_slice(&value.to_le_bytes());
+
+    // Four chunks of a row each: y, the number of bytes, 96 bytes; their offsets stand before the first.
+    let rows = plain(Compression::Uncompressed, Blocks::ScanLines);
+    let chunk = |k: usize| rows.len() - (4 - k) * (8 + 96);
+    let table = chunk(0) - 4 * 8;
+    let mut one_again = rows.clone();
+    number(&mut one_again, chunk(2), 1);
+    assert!(error(&one_again).contains("pixels: row 2 missing, row 1 twice"), "{}", error(&one_again));
+    let mut same_offset = rows.clone();
+    same_offset.copy_within(table..table + 8, table + 8);
+    assert!(error(&same_offset).contains("row 1 missing, row 0 twice"), "{}", error(&same_offset));
+
+    // A tile's place and level are four numbers.
+    let tiles = plain(Compression::Uncompressed, Blocks::Tiles(Vec2(4, 4)));
+    let last = tiles.len() - (20 + 4 * 4 * 12);
+    let mut one_again = tiles.clone();
+    number(&mut one_again, last, 0);
+    let told = "columns 4 to 7 of rows 0 to 3 missing, columns 0 to 3 of rows 0 to 3 twice";
+    assert!(error(&one_again).contains(told), "{}", error(&one_again));
+
+    for compression in [
+        Compression::Uncompressed,
+        Compression::RLE,
+        Compression::ZIP1,
+        Compression::ZIP16,
+        Compression::PIZ,
+        Compression::PXR24,
+        Compression::B44,
+        Compression::B44A,
+    ] {
+        let mut bytes = plain(compression, Blocks::ScanLines);
+        // The first chunk starts where the first offset, the only number of its size, points to.
+        let first = (0..bytes.len() - 8)
+            .find(|&at| {
+                let offset = u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i])) as usize;
+                at > 200 && (at + 8..at + 8 * 4 + 1).contains(&offset)
+            })
+            .map(|at| bytes[at] as usize | (bytes[at + 1] as usize) << 8)
+            .expect("a table of offsets");
+        number(&mut bytes, first + 4, 0);
+        let error = error(&bytes);
+        assert!(error.contains("pixels: row") && error.contains("no bytes"), "{compression:?}: {error}");
+    }
+}
+
 /// What would be read wrongly is refused by the name of its attribute.
 #[test]
 fn crops_and_cubes_are_refused() {

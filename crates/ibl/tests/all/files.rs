@@ -178,7 +178,11 @@ fn lying_headers_name_the_field() {
         (with(16, &[3, 0]), "numChannels"),
         (with(18, &[16, 0]), "bitsPerChannel"),
         (with(20, &[0xff, 0xff]), "headerSize: 65535 lies outside of the file"),
-        (with(20, &[0, 2]), "its levels"),
+        (with(20, &[0, 2]), "headerSize: 512 and the levels'"),
+        (with(20, &[252, 0]), "headerSize: 252 and the levels'"),
+        (with(20, &[144, 0]), "headerSize"),
+        (with(20, &[4, 1]), "headerSize"),
+        ([&sound[..], &[0]].concat(), "headerSize"),
         (with(20, &[0, 0]), "headerSize"),
         (with(22, &[0, 1]), "endianEncoding"),
         (with(28, &[7, 0]), "type"),
@@ -265,6 +269,8 @@ fn lying_ktx2_headers_name_the_field() {
         file[at..at + bytes.len()].copy_from_slice(bytes);
         file
     };
+    let place = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| sound[at + i]));
+    let (kvd, level_0) = (place(56), place(80));
     let roughness = sound.windows(7).position(|text| text == b"0,0.5,1").expect("the list");
     for (file, part) in [
         (with(5, b"11"), "KTX 1"),
@@ -305,6 +311,18 @@ fn lying_ktx2_headers_name_the_field() {
         (with(56, &[0xff; 4]), "kvdByteOffset"),
         (with(80, &[0xff; 8]), "byteOffset of level 0"),
         (with(80 + 24, &[0xff; 4]), "byteOffset of level 1"),
+        (with(56, &(kvd + 4).to_le_bytes()), "kvdByteOffset"),
+        (with(56, &[0; 4]), "kvdByteOffset"),
+        (with(56, &[16, 0, 0, 0]), "kvdByteOffset"),
+        (with(72, &[8]), "sgdByteLength"),
+        (with(80, &[0; 8]), "byteOffset of level 0: 0 lies before"),
+        (with(80, &[16, 0, 0]), "byteOffset of level 0: 16 lies before"),
+        (with(80, &kvd.to_le_bytes()), "byteOffset of level 0"),
+        (with(80, &(level_0 + 8).to_le_bytes()), "byteOffset of level 0: from"),
+        (with(80, &(level_0 - 8).to_le_bytes()), "byteOffset of level 0"),
+        (with(80 + 24, &(level_0 - 8 * 96 + 4).to_le_bytes()), "byteOffset of level 1"),
+        (with(80 + 24, &level_0.to_le_bytes()), "lies within level"),
+        (with(80 + 48, &(level_0 - 8 * 96).to_le_bytes()), "lies within level"),
         (with(88, &[1]), "byteLength of level 0"),
         (with(96, &[0xff; 8]), "uncompressedByteLength of level 0"),
         (with(roughness, b"1"), "halfvector.roughness"),
@@ -328,6 +346,22 @@ fn ktx2_headers_of_others() {
     file[descriptor + 13] = 9;
     let notes = load(&file, "x").expect("sound").notes;
     assert!(notes.iter().any(|note| note.contains("colorPrimaries (9)")), "{notes:?}");
+}
+
+/// The level index says where levels stand: with level 0 first and room between them it is as good a file.
+#[test]
+fn ktx2_levels_stand_in_any_order() {
+    let sound = small_ktx2(TexelFormat::Rgba16F);
+    let place = |level: usize| u32::from_le_bytes(std::array::from_fn(|i| sound[80 + 24 * level + i])) as usize;
+    let lengths = [8 * 384, 8 * 96, 8 * 24];
+    let mut turned = sound[..place(2)].to_vec();
+    for level in 0..3 {
+        turned.resize(turned.len().next_multiple_of(8) + 16, 7);
+        let at = turned.len() as u32;
+        turned.extend(&sound[place(level)..place(level) + lengths[level]]);
+        turned[80 + 24 * level..][..4].copy_from_slice(&at.to_le_bytes());
+    }
+    assert_eq!(load(&turned, "x").expect("sound").source, load(&sound, "x").expect("sound").source);
 }
 
 /// Cut anywhere, an EXR file says that it ends, and within what.
