@@ -8,7 +8,7 @@ use halfvector_graph::document::{AlphaMode, Document};
 use halfvector_graph::library::Library;
 use halfvector_graph::needs::{EnvironmentNeeds, Needs};
 
-use crate::passes::specialise::Keep;
+use crate::passes::plan::Keep;
 use crate::pipeline::{Extra, Making};
 use crate::{CodegenError, Fold, Shader, cost};
 

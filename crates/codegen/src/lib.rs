@@ -32,7 +32,7 @@ pub use passes::lower::input_value;
 pub use pipeline::{material, shader};
 pub use validate::{Place, Valid, ValidationError, place_of, validate};
 
-use passes::specialise::Keep;
+use passes::plan::Keep;
 use reflection::Reflection;
 
 /// Which numbers of a document stay open in the shader.

@@ -12,9 +12,10 @@ use crate::ir::Program;
 use crate::link::Index;
 use crate::names::Namer;
 use crate::passes::lower::{lower, lower_material};
-use crate::passes::specialise::{Constants, Keep, specialise};
+use crate::passes::plan::{Constants, Keep};
+use crate::passes::specialise::{constants, specialise};
 use crate::passes::types::Types;
-use crate::passes::{drop_unused::drop_unused, fold, share::share, specialise, types};
+use crate::passes::{drop_unused::drop_unused, fold, share::share, types};
 use crate::{CodegenError, Fold, Remark, Shader, emit};
 
 /// The shader of a material for what a scene needs.
@@ -138,7 +139,7 @@ fn export<'a>(
     let mut program = lower(document, types, index, methods, Fold::Export, open)?;
     let faults = fold::fold(&mut program, index);
     no_faults(document, library, &program, &faults)?;
-    let constants = specialise::constants(&program, index);
+    let constants = constants(&program, index);
     Ok((program, constants))
 }
 

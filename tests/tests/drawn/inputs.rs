@@ -6,7 +6,7 @@ use halfvector_codegen::reflection::{
 use halfvector_codegen::uniforms::{FrameValues, ObjectValues, fill_input};
 use halfvector_graph::library::Library;
 use halfvector_graph::value::{ColorSpace, Filter, Wrap};
-use halfvector_ibl::{Visibility, dfg_table_with};
+use halfvector_ibl::{Visibility, dfg_table_with, direction_from_face};
 use halfvector_scene::Mesh;
 use halfvector_scene::light::{lights_by_kind, parse_light};
 use halfvector_scene::mesh::MeshData;
@@ -230,8 +230,9 @@ fn cube(levels: u32) -> Texture {
         let mut bytes = Vec::new();
         for face in 0..6 {
             for texel in 0..size * size {
-                let at = |i: u32| 2.0 * (i as f32 + 0.5) / size as f32 - 1.0;
-                let [x, y, z] = direction(face, at(texel % size), at(texel / size));
+                let at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(size) - 1.0;
+                let direction = direction_from_face(face, at(texel % size), at(texel / size));
+                let [x, y, z] = glam::DVec3::from(direction).normalize().as_vec3().to_array();
                 let dim = 1.0 - 0.05 * level as f32;
                 let color = [0.35 + 0.15 * y + 0.1 * x, 0.35 + 0.15 * y, 0.4 + 0.1 * z];
                 bytes.extend(color.map(|c| half(c * dim)).concat());
@@ -242,19 +243,6 @@ fn cube(levels: u32) -> Texture {
         (size, bytes)
     });
     Texture { format: Format::Rgba16F, is_cube: true, levels: levels.collect() }
-}
-
-/// The unit direction of a point of a face, as all APIs have it.
-fn direction(face: u32, s: f32, t: f32) -> [f32; 3] {
-    let d = match face {
-        0 => [1.0, -t, -s],
-        1 => [-1.0, -t, s],
-        2 => [s, 1.0, t],
-        3 => [s, -1.0, -t],
-        4 => [s, -t, 1.0],
-        _ => [-s, -t, -1.0],
-    };
-    glam::Vec3::from(d).normalize().to_array()
 }
 
 impl Texture {

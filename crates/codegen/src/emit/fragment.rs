@@ -13,7 +13,7 @@ use crate::emit::value::number;
 use crate::ir::Program;
 use crate::link::Index;
 use crate::names::Namer;
-use crate::passes::specialise::{Coupling, Plan};
+use crate::passes::plan::{Coupling, Plan};
 use crate::reflection::LightKind;
 
 /// What the fragment stage is written from.

@@ -6,7 +6,7 @@ use halfvector_graph::needs::{Needs, ShaderOutput};
 
 use crate::emit::text::Text;
 use crate::names::comment;
-use crate::passes::specialise::{Keep, Plan};
+use crate::passes::plan::{Keep, Plan};
 use crate::reflection::LightKind;
 use crate::{Dropped, Remark};
 

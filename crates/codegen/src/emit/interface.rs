@@ -7,7 +7,7 @@ use crate::emit::expression::{EnvironmentTexture, Names, Uses, ViewMember, light
 use crate::emit::text::Text;
 use crate::emit::vertex::VARYINGS;
 use crate::ir::{Input, Program};
-use crate::passes::specialise::Plan;
+use crate::passes::plan::Plan;
 use crate::reflection::{
     Binding, Reflection, Resource, SamplerSource, ShaderParameter, TextureSource, UniformBlock, UniformSource,
     UniformType, VertexInput,

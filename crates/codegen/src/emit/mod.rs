@@ -22,7 +22,7 @@ use crate::emit::interface::Interface;
 use crate::emit::text::{Origin, Text};
 use crate::ir::Program;
 use crate::link::{self, Index};
-use crate::passes::specialise::Plan;
+use crate::passes::plan::Plan;
 use crate::{CodegenError, Remark, Shader};
 
 /// The whole shader: `vs_main` and `fs_main`.

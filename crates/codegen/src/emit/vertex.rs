@@ -8,7 +8,7 @@ use crate::emit::text::Text;
 use crate::ir::Program;
 use crate::link::Index;
 use crate::names::Namer;
-use crate::passes::specialise::Plan;
+use crate::passes::plan::Plan;
 
 /// Varyings in order of their locations, with their types.
 pub(crate) const VARYINGS: [(&str, &str); 7] = [

@@ -5,6 +5,7 @@ pub(crate) mod eval;
 pub(crate) mod fold;
 pub(crate) mod lower;
 pub(crate) mod mixed;
+pub(crate) mod plan;
 pub(crate) mod share;
 pub(crate) mod specialise;
 pub(crate) mod types;

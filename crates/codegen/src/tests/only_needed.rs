@@ -4,7 +4,7 @@ use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput, ToneMap};
 
 use super::{environment, exported, made, maps, material, methods, nothing, sun};
 use crate::Fold;
-use crate::passes::specialise::{COMPENSATION_BOUND_PERCENT, COMPENSATION_MIN_F0};
+use crate::passes::plan::{COMPENSATION_BOUND_PERCENT, COMPENSATION_MIN_F0};
 
 const ALL_LOBES: &str = r#""metallic": 0.2, "coat_weight": 0.8, "coat_roughness": 0.1, "coat_color": [1, 0.9, 0.8],
     "sheen_color": [0.2, 0.2, 0.3], "transmission_weight": 0.4, "anisotropy": 0.7, "thin_film_weight": 0.5"#;
