@@ -9,6 +9,7 @@ use halfvector_graph::document::Document;
 use halfvector_graph::file::MAX_BYTES;
 use halfvector_graph::library::Library;
 use halfvector_scene::{BuiltinMesh, MeshSource, Scene, SceneError};
+use serde::de::IgnoredAny;
 
 use crate::failure::Failure;
 
@@ -23,6 +24,18 @@ pub(crate) enum Kind {
     Model,
 }
 
+/// The fields that tell what a document is. What stands in them is read over, and nothing of it is kept.
+#[derive(serde::Deserialize)]
+struct Fields {
+    nodes: Option<IgnoredAny>,
+    base: Option<IgnoredAny>,
+    mesh: Option<IgnoredAny>,
+    objects: Option<IgnoredAny>,
+    model: Option<IgnoredAny>,
+    camera: Option<IgnoredAny>,
+    environment: Option<IgnoredAny>,
+}
+
 /// Tells what a file is: a model by its extension, documents by their fields.
 pub(crate) fn kind(path: &Path) -> Result<Kind, Failure> {
     let extension = path.extension().and_then(OsStr::to_str).map(str::to_lowercase);
@@ -35,16 +48,18 @@ pub(crate) fn kind(path: &Path) -> Result<Kind, Failure> {
             .because(why)
             .try_to("a *.material.json or *.scene.json file; examples/ has some")
     })?;
-    match serde_json::from_slice::<serde_json::Value>(&bytes) {
-        Ok(serde_json::Value::Object(fields)) => {
-            if fields.contains_key("nodes") || fields.contains_key("base") {
+    match serde_json::from_slice::<Fields>(&bytes) {
+        Ok(fields) => {
+            if fields.nodes.or(fields.base).is_some() {
                 return Ok(Kind::Material);
             }
-            if ["mesh", "objects", "model", "camera", "environment"].iter().any(|field| fields.contains_key(*field)) {
+            let Fields { mesh, objects, model, camera, environment, .. } = fields;
+            if mesh.or(objects).or(model).or(camera).or(environment).is_some() {
                 return Ok(Kind::Scene);
             }
         }
-        Ok(_) => {}
+        // JSON, but no object of these fields.
+        Err(error) if error.is_data() => {}
         // The reader of the kind that the name promises says it better, with line and column.
         Err(error) => {
             return by_name(path).ok_or_else(|| {

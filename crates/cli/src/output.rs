@@ -1,5 +1,6 @@
 //! What leaves the program: text on stdout, files that are there whole or not at all, progress on a terminal.
 
+use std::borrow::Cow;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::time::Duration;
@@ -10,6 +11,38 @@ use crate::failure::Failure;
 
 /// Prints a text and a line break on stdout. A reader that has gone away (`| head`) is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    print_whole(&harmless(text, |c| c.escape_unicode().to_string()))
+}
+
+/// Prints a JSON value on stdout.
+pub(crate) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
+    // Such characters stand in texts alone, where JSON has an escape for them.
+    print_whole(&harmless(&format!("{value:#}"), |c| format!("\\u{:04x}", u32::from(c))))
+}
+
+/// Tells the user something beside the result, on stderr.
+pub(crate) fn note(text: impl std::fmt::Display) {
+    let text = text.to_string();
+    // Nobody is left to tell when stderr is closed.
+    let _ = writeln!(std::io::stderr(), "{}", harmless(&text, |c| c.escape_unicode().to_string()));
+}
+
+/// A text that a terminal shows and does not obey: names in documents and of files may hold whatever somebody put there. Escaped are control
+/// characters but line breaks and tabs, and what turns the direction of writing or breaks lines unseen.
+fn harmless(text: &str, escaped: impl Fn(char) -> String) -> Cow<'_, str> {
+    let is_obeyed = |c: char| {
+        let is_control = c.is_control() && !matches!(c, '\n' | '\t');
+        let turns =
+            matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        is_control || turns || matches!(c, '\u{2028}' | '\u{2029}')
+    };
+    if !text.contains(is_obeyed) {
+        return Cow::Borrowed(text);
+    }
+    text.chars().map(|c| if is_obeyed(c) { escaped(c) } else { c.to_string() }).collect()
+}
+
+fn print_whole(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match writeln!(out, "{}", text.trim_end_matches('\n')).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -17,17 +50,6 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
-}
-
-/// Prints a JSON value on stdout.
-pub(crate) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
-    print(&format!("{value:#}"))
-}
-
-/// Tells the user something beside the result, on stderr.
-pub(crate) fn note(text: impl std::fmt::Display) {
-    // Nobody is left to tell when stderr is closed.
-    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// Refuses a place for a file before any work is done: a folder of that name, or something else in a folder's place.
@@ -84,6 +106,14 @@ pub(crate) fn progress(what: &str) -> ProgressBar {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_terminal_obeys_no_text() {
+        let hostile = "a\u{1b}]0;x\u{7} \u{9b}1m\r \u{202e}b\u{2066}\nc\td \u{2028}";
+        let text = harmless(hostile, |c| c.escape_unicode().to_string());
+        assert_eq!(text, "a\\u{1b}]0;x\\u{7} \\u{9b}1m\\u{d} \\u{202e}b\\u{2066}\nc\td \\u{2028}");
+        assert!(matches!(harmless("錆\n\u{e9}", |_| String::new()), Cow::Borrowed(_)));
+    }
 
     #[test]
     fn a_file_is_replaced_whole_and_nothing_else_stays() {

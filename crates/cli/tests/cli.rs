@@ -246,6 +246,52 @@ fn check_tells_all_problems() {
     assert!(cut.json()["problems"].as_array().is_some_and(|list| list.len() > problems.len()));
 }
 
+/// Names from documents reach the terminal as text, never as commands to it.
+#[test]
+fn a_terminal_is_sent_no_commands() {
+    let folder = Folder::new();
+    let esc = "\\u001b[2J\\u0007\\u009b1m\\u202e";
+    let code = format!("[\"fn f(x: f32) -> f32 {{ // {esc}\", \"return 1; /* {esc} */ $ }}\"]");
+    folder.write(
+        "bad.material.json",
+        &format!(
+            r#"{{"halfvector": 1, "name": "{esc}",
+              "nodes": {{"n{esc}": {{"node": "math/{esc}", "label": "a{esc}\\nplain.material.json: error: forged"}},
+                "f\\nplain.material.json: error: forged": {{"node": "custom/f"}},
+                "image": {{"node": "textures/image", "values": {{"image": {{"file": "/{esc}.png", "color_space": "srgb"}}}}}},
+                "surface": {{"node": "surface/surface", "values": {{"{esc}": 1}}}}}},
+              "functions": {{"f": {code}}},
+              "links": [{{"from": "image.{esc}", "to": "surface.{esc}"}}], "{esc}": 1}}"#
+        ),
+    );
+    folder.write("text.material.json", &format!("{{\"halfvector\": 1, \"nodes\": {{\"{esc}\": 1}}, \"links\": []}}"));
+    let image = r#"{"halfvector": 1, "nodes": {"image": {"node": "textures/image", "values": {"image": {"file": "FILE", "color_space": "srgb"}}},
+        "surface": {"node": "surface/surface"}}, "links": [{"from": "image.color", "to": "surface.base_color"}]}"#;
+    folder.write("lost.material.json", &image.replace("FILE", &format!("{esc}.png")));
+    let named = "\u{1b}[31m\u{202e}.material.json";
+    #[cfg(unix)]
+    folder.write(named, "{");
+    for file in ["bad.material.json", "text.material.json", "lost.material.json", named] {
+        for arguments in [
+            &["check", file][..],
+            &["check", file, "--format", "json"],
+            &["export", file, "--target", "wgsl", "-o", "x"],
+        ] {
+            let run = folder.run(arguments);
+            assert!(run.code != Some(0) || arguments[0] == "export", "{}", run.stdout);
+            for text in [&run.stdout, &run.stderr] {
+                let is_obeyed = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
+                assert!(!text.contains(is_obeyed), "{arguments:?}: {text:?}");
+                assert!(!text.lines().any(|line| line.starts_with("plain.material.json")), "{arguments:?}: {text}");
+            }
+        }
+    }
+    let problems = folder.run(&["check", "bad.material.json", "--format", "json"]).json();
+    let nodes: Vec<&str> =
+        problems["problems"].as_array().expect("a list").iter().filter_map(|p| p["node"].as_str()).collect();
+    assert!(nodes.contains(&"n\u{1b}[2J\u{7}\u{9b}1m\u{202e}"), "a reader of the JSON has the names: {nodes:?}");
+}
+
 #[test]
 fn lists_are_one_json_object() {
     let folder = Folder::new();

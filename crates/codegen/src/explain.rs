@@ -21,8 +21,13 @@ pub struct Remark {
     pub text: String,
 }
 
+/// Longest text, in bytes, of which savings are counted. A shader of a thousand nodes has less. Beyond, each count would take a good part of
+/// a second, and what is left out would save next to nothing of such a shader.
+const MAX_COUNTED: usize = 256 << 10;
+
 /// The shader that [`shader()`](crate::shader()) makes under [`Fold::Export`], which says also what each thing saves that was left
-/// out, and in its comment what `remarks` say. It makes one shader more for each of those things: some milliseconds each.
+/// out, and in its comment what `remarks` say. It makes one shader more for each of those things: some milliseconds each. In a
+/// shader of more than 256 KiB savings are not counted.
 ///
 /// # Errors
 /// As for [`shader()`](crate::shader()).
@@ -34,12 +39,9 @@ pub fn explained(
 ) -> Result<Shader, CodegenError> {
     let making = Making { document, library, needs, fold: Fold::Export };
     let shader = making.make(Extra::default())?;
-    let instructions = total(&shader);
-    let saved: Vec<Option<u32>> = shader
-        .dropped
-        .iter()
-        .map(|dropped| Some(total(&with(making, dropped.kept_by)?)?.saturating_sub(instructions?)))
-        .collect();
+    let instructions = if shader.wgsl.len() <= MAX_COUNTED { total(&shader) } else { None };
+    let saving = |keep: Keep| instructions.and_then(|own| Some(total(&with(making, keep)?)?.saturating_sub(own)));
+    let saved: Vec<Option<u32>> = shader.dropped.iter().map(|dropped| saving(dropped.kept_by)).collect();
     making.make(Extra { remarks, saved: &saved, ..Extra::default() })
 }
 

@@ -3,7 +3,9 @@
 //! An error keeps a shader from being made. A problem of a node that does not reach the surface is a warning, since no shader
 //! needs that node. It opens no files: whether a picture exists is found when it is loaded.
 
+mod findings;
 mod groups;
+mod limits;
 pub(crate) mod links;
 mod nodes;
 mod parameters;
@@ -26,6 +28,9 @@ use crate::node_def::NodeDef;
 use crate::resolve::{Types, resolve_in};
 use crate::value::SocketType;
 use crate::wiring::Wiring;
+use findings::Findings;
+
+pub use limits::{MAX_GROUP_SOCKETS, MAX_GROUPS, MAX_LINKS, MAX_NODES, MAX_PARAMETERS};
 
 /// Most nodes that may reach the surface: more make no shader that a driver takes.
 pub const MAX_LIVE_NODES: usize = 20_000;
@@ -73,11 +78,11 @@ impl fmt::Display for Problem {
         };
         if let Some(place) = place {
             match self.node_label.as_deref().filter(|label| *label != place) {
-                Some(label) => write!(f, "\u{201c}{}\u{201d} ({place})", words::one_line(label))?,
-                None => f.write_str(&place)?,
+                Some(label) => write!(f, "\u{201c}{}\u{201d} ({})", words::one_line(label), words::one_line(&place))?,
+                None => f.write_str(&words::one_line(&place))?,
             }
             if let Some(socket) = &self.socket {
-                write!(f, ", {socket}")?;
+                write!(f, ", {}", words::one_line(socket))?;
             }
             f.write_str(": ")?;
         }
@@ -87,11 +92,17 @@ impl fmt::Display for Problem {
 
 /// All problems of a document: of the document, of its nodes in order of id, of its links and parameters in their order, of its groups
 /// in order of id. `library` is the shipped one; what the document brings along is added here.
+///
+/// Of a document with more than it may hold only that is told. Of more than ten thousand errors, or warnings, the others are counted.
 pub fn check(document: &Document, library: &Library) -> Vec<Problem> {
+    let too_large = limits::check(document);
+    if !too_large.is_empty() {
+        return too_large;
+    }
     let own = library.of(document);
     let wiring = Wiring::new(&document.graph);
     let surfaces = surface_nodes(document, library);
-    let mut checker = Checker::new(document, &document.graph, &own, &wiring);
+    let mut checker = Checker::new(document, &document.graph, &own, &wiring, Findings::default());
     checker.document();
     checker.cycles();
     checker.surface(&surfaces);
@@ -105,30 +116,29 @@ pub fn check(document: &Document, library: &Library) -> Vec<Problem> {
         checker.size(&live, &extents);
         match flatten(document, library) {
             Ok(Flat { document: Cow::Owned(flat), library }) => {
-                checker.problems.extend(in_stages(document, &flat, &library));
+                checker.findings = in_stages(document, &flat, &library, checker.findings);
             }
             // What is wrong with groups is told with them; the top level is looked at by itself.
             _ => stages::check(&mut checker),
         }
     }
-    let mut problems = checker.problems;
-    problems.extend(groups::check(document, &own, &extents, &live));
-    problems
+    groups::check(document, &own, &extents, &live, checker.findings).into_problems()
 }
 
 /// Problems of stages where groups are taken apart, told of the places where the user sees them.
-fn in_stages(document: &Document, flat: &Document, library: &Library) -> Vec<Problem> {
+fn in_stages(document: &Document, flat: &Document, library: &Library, findings: Findings) -> Findings {
     let wiring = Wiring::new(&flat.graph);
-    let mut checker = Checker::new(flat, &flat.graph, library, &wiring);
+    let before = findings.problems.len();
+    let mut checker = Checker::new(flat, &flat.graph, library, &wiring, findings);
     checker.live = flat.graph.nodes.keys().map(String::as_str).collect();
     stages::check(&mut checker);
-    let mut problems = checker.problems;
-    for problem in &mut problems {
+    let mut findings = checker.findings;
+    for problem in &mut findings.problems[before..] {
         if let Some((group, node, _)) = problem.node.as_deref().and_then(|path| find(document, path)) {
             (problem.group, problem.node) = (group.map(str::to_string), Some(node.to_string()));
         }
     }
-    problems
+    findings
 }
 
 /// The document's surface node, if it has exactly one.
@@ -194,26 +204,39 @@ struct Checker<'a> {
     live: HashSet<&'a str>,
     /// Whether the material uses the graph: what is no part of it can lack nothing.
     is_used: bool,
-    problems: Vec<Problem>,
+    findings: Findings,
 }
 
 impl<'a> Checker<'a> {
-    fn new(document: &'a Document, graph: &'a Graph, library: &'a Library, wiring: &'a Wiring<'a>) -> Checker<'a> {
+    fn new(
+        document: &'a Document,
+        graph: &'a Graph,
+        library: &'a Library,
+        wiring: &'a Wiring<'a>,
+        findings: Findings,
+    ) -> Checker<'a> {
         let types = resolve_in(graph, library, wiring);
-        let (live, problems) = (HashSet::new(), Vec::new());
-        Checker { document, graph, group: None, library, wiring, types, live, is_used: true, problems }
+        Checker { document, graph, group: None, library, wiring, types, live: HashSet::new(), is_used: true, findings }
     }
 
     /// A problem of the document, or of the group, as a whole.
     fn of_document(&mut self, severity: Severity, message: impl Into<String>) {
+        self.with_code(severity, in_one_line(message.into()));
+    }
+
+    /// The same with lines of the user's own code below the message.
+    fn with_code(&mut self, severity: Severity, message: String) {
+        if !self.findings.has_room(severity) {
+            return;
+        }
         let (group, label) = self.group.unzip();
-        self.problems.push(Problem {
+        self.findings.problems.push(Problem {
             severity,
             group: group.map(str::to_string),
             node: None,
             node_label: label.map(str::to_string),
             socket: None,
-            message: message.into(),
+            message,
         });
     }
 
@@ -222,17 +245,20 @@ impl<'a> Checker<'a> {
     }
 
     fn at(&mut self, severity: Severity, node: &str, socket: Option<&str>, message: impl Into<String>) {
+        if !self.findings.has_room(severity) {
+            return;
+        }
         let node_label = self.graph.nodes.contains_key(node).then(|| match self.group {
             Some((_, label)) => format!("{label} \u{25b8} {}", self.label(node)),
             None => self.label(node),
         });
-        self.problems.push(Problem {
+        self.findings.problems.push(Problem {
             severity,
             group: self.group.map(|(id, _)| id.to_string()),
             node: Some(node.into()),
             node_label,
             socket: socket.map(str::to_string),
-            message: message.into(),
+            message: in_one_line(message.into()),
         });
     }
 
@@ -285,7 +311,7 @@ impl<'a> Checker<'a> {
         for (id, text) in &self.document.functions {
             if let Err(e) = read_function(id, text) {
                 let severity = if used.contains(id.as_str()) { Severity::Error } else { Severity::Warning };
-                self.of_document(severity, format!("the function `{}`, {e}", words::one_line(id)));
+                self.with_code(severity, format!("the function `{}`, {e}", words::one_line(id)));
             }
         }
     }
@@ -354,10 +380,14 @@ impl<'a> Checker<'a> {
             },
             [] => {
                 self.live = all();
-                self.of_document(
-                    Severity::Error,
-                    "the material has no surface node, so nothing is drawn; add one (surface/surface)",
-                );
+                let message = match self.ring_of_surfaces() {
+                    Some(ring) => format!(
+                        "no surface is the material's last one, so nothing is drawn: these mix each other in a ring, {ring}; remove one of \
+                         the links"
+                    ),
+                    None => "the material has no surface node, so nothing is drawn; add one (surface/surface)".into(),
+                };
+                self.of_document(Severity::Error, message);
             }
             [first, others @ ..] => {
                 self.live = all();
@@ -375,6 +405,15 @@ impl<'a> Checker<'a> {
                 self.opacity(surface);
             }
         }
+    }
+
+    /// The first ring of surfaces that mix each other, in words.
+    fn ring_of_surfaces(&self) -> Option<String> {
+        let def = |id: &str| self.library.get(&self.graph.nodes.get(id)?.node);
+        let cycles = self.wiring.cycles();
+        let ring = cycles.iter().find(|cycle| cycle.nodes.iter().all(|id| def(id).is_some_and(gives_surface)))?;
+        let names: Vec<String> = ring.nodes.iter().map(|id| format!("{} ({id})", self.label(id))).collect();
+        Some(words::ring(&names))
     }
 
     /// The live surfaces that are not mixed of others, sorted.
@@ -397,6 +436,11 @@ impl<'a> Checker<'a> {
             );
         }
     }
+}
+
+/// A message without line breaks and other control characters, which names in it may have: a name does not forge a line.
+fn in_one_line(message: String) -> String {
+    if message.contains(char::is_control) { words::one_line(&message) } else { message }
 }
 
 /// How often each text comes.

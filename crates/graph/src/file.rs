@@ -20,7 +20,7 @@ pub use read::{from_json, group_from_json};
 pub use write::{group_to_json, to_json};
 
 /// Largest text that is read, in bytes.
-pub const MAX_BYTES: usize = 64 << 20;
+pub const MAX_BYTES: usize = 32 << 20;
 
 /// Why a document was not read or written.
 #[derive(Debug, thiserror::Error)]

@@ -1,10 +1,13 @@
 //! A JSON reader that remembers where each value stands, so that a wrong field is reported with its line and column.
 //!
 //! It reads JSON as RFC 8259 has it, refuses a key that stands twice in one object (after a merge one of two nodes of the same
-//! name would vanish), and bounds the nesting. It does not know documents (see `file`) and does not write.
+//! name would vanish), and bounds the nesting and the number of values. It does not know documents (see `file`) and does not write.
 
 /// Deepest nesting that is read; a document needs seven.
 pub(crate) const MAX_DEPTH: usize = 64;
+
+/// Most values that are read, those in lists and objects counted too: the largest document that is drawn has less than half as many.
+pub(crate) const MAX_VALUES: usize = 1_000_000;
 
 /// A value and where it starts, in bytes from the start of the text.
 #[derive(Clone, Debug)]
@@ -76,9 +79,14 @@ pub(crate) fn line_and_column(text: &str, at: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
+/// Whether two of a few members have the same key.
+fn has_twins(members: &[Member]) -> bool {
+    members.iter().enumerate().any(|(i, one)| members[..i].iter().any(|other| other.key == one.key))
+}
+
 /// Reads a whole text as one value.
 pub(crate) fn parse(text: &str) -> Result<Spanned, SyntaxError> {
-    let mut parser = Parser { text, at: 0 };
+    let mut parser = Parser { text, at: 0, values: 0 };
     let value = parser.value(0)?;
     parser.skip_space();
     match parser.peek() {
@@ -90,6 +98,8 @@ pub(crate) fn parse(text: &str) -> Result<Spanned, SyntaxError> {
 struct Parser<'t> {
     text: &'t str,
     at: usize,
+    /// How many were read so far.
+    values: usize,
 }
 
 impl Parser<'_> {
@@ -120,6 +130,10 @@ impl Parser<'_> {
         self.skip_space();
         if depth > MAX_DEPTH {
             return Err(self.error(format!("values are nested more than {MAX_DEPTH} deep")));
+        }
+        self.values += 1;
+        if self.values > MAX_VALUES {
+            return Err(self.error(format!("the text has more than {MAX_VALUES} values; is this a material?")));
         }
         let at = self.at;
         let json = match self.peek() {
@@ -301,6 +315,11 @@ impl Parser<'_> {
                 break;
             }
         }
+        // Most objects are small: there a look at each pair needs no list.
+        const SMALL: usize = 8;
+        if members.len() <= SMALL && !has_twins(&members) {
+            return Ok(Json::Object(members));
+        }
         let mut keys: Vec<(&str, usize)> = members.iter().map(|m| (m.key.as_str(), m.at)).collect();
         keys.sort_unstable();
         match keys.windows(2).find(|pair| pair[0].0 == pair[1].0) {
@@ -359,6 +378,23 @@ mod tests {
     fn nesting_is_bounded() {
         assert!(parse(&"[".repeat(100_000)).is_err());
         assert!(parse(&format!("{}1{}", "[".repeat(60), "]".repeat(60))).is_ok());
+    }
+
+    #[test]
+    fn values_are_counted() {
+        let list = |count: usize| format!("[{}0]", "0,".repeat(count - 1));
+        assert!(parse(&list(MAX_VALUES - 1)).is_ok(), "the list is a value, too");
+        let error = parse(&list(MAX_VALUES)).unwrap_err();
+        assert!(error.message.contains("1000000 values"), "{}", error.message);
+    }
+
+    #[test]
+    fn a_key_stands_once_in_objects_of_any_size() {
+        for count in [2, 8, 9, 100] {
+            let keys: Vec<String> = (0..count).map(|i| format!("\"k{}\": 0", i % (count - 1))).collect();
+            let error = parse(&format!("{{{}}}", keys.join(","))).unwrap_err();
+            assert!(error.message.contains("`k0` stands twice"), "{count}: {}", error.message);
+        }
     }
 
     #[test]

@@ -12,6 +12,7 @@ pub mod peers;
 pub mod pictures;
 pub mod precision;
 pub mod shaders;
+pub mod specular_aa;
 mod split_sum;
 mod texels;
 
@@ -34,6 +35,7 @@ impl Part {
             "energy" => [2.0, 10.0],
             "ibl" => [27.0, 400.0],
             "pictures" => [25.0, 400.0],
+            "specular_aa" => [1.0, 10.0],
             "peers" => [10.0, 120.0],
             _ => [0.5, 5.0],
         };
@@ -53,6 +55,7 @@ pub const PARTS: &[Part] = &[
     Part { name: "mips", rows: mips::rows },
     Part { name: "ibl", rows: ibl::rows },
     Part { name: "lobes", rows: lobes::rows },
+    Part { name: "specular_aa", rows: specular_aa::rows },
     Part { name: "precision", rows: precision::rows },
     Part { name: "pictures", rows: pictures::rows },
     Part { name: "peers", rows: peers::rows },

@@ -4,7 +4,7 @@
 //! tabled light; true is there the same shader with the most exact method of each term, at the same points: so neither noise
 //! nor the steps of the pixels are in the difference.
 
-use halfvector_graph::document::SocketRef;
+use halfvector_graph::document::{SURFACE_NODE, SocketRef};
 use halfvector_graph::method::Methods;
 use halfvector_ibl::{BakedEnvironment, LoadedEnvironment};
 use halfvector_raster::{RasterOptions, draw};
@@ -19,8 +19,6 @@ use crate::failure::Failure;
 pub(crate) const SIZE: u32 = 64;
 /// Samples along a side of a pixel.
 const SIDE: u32 = 4;
-/// The node whose inputs are a surface's.
-const SURFACE: &str = "surface/surface";
 /// The light of the second picture.
 pub(crate) const LAMP: &str = "directional:1,1,1:3";
 /// Radius of the sphere's outline over half the picture: tan(asin(1 / 5)) / tan(15 degrees) = 0.7618, less what the flat
@@ -115,10 +113,10 @@ impl Lamp {
 pub(crate) fn scene(mut scene: Scene, truth: &Methods) -> Scene {
     for material in &mut scene.materials {
         let graph = &mut material.document.graph;
-        let is_surface = |node: &String| graph.nodes.get(node).is_some_and(|node| node.node == SURFACE);
+        let is_surface = |node: &String| graph.nodes.get(node).is_some_and(|node| node.node == SURFACE_NODE);
         let is_height = |socket: &SocketRef| socket.socket == "height" && is_surface(&socket.node);
         graph.links.retain(|link| !is_height(&link.to));
-        for node in graph.nodes.values_mut().filter(|node| node.node == SURFACE) {
+        for node in graph.nodes.values_mut().filter(|node| node.node == SURFACE_NODE) {
             node.values.remove("height");
         }
     }

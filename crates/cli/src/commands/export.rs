@@ -42,9 +42,9 @@ pub(crate) struct ExportArgs {
     scene: Option<PathBuf>,
     #[command(flatten)]
     methods: super::methods::MethodChoice,
-    /// Choose the cheapest measured method of Fresnel, visibility, DFG, diffuse, irradiance and compensation with which the
+    /// Choose the cheapest measured method of Fresnel, visibility, DFG, irradiance and compensation with which the
     /// material stays within this error: rms over mean of linear radiance on the sphere under `studio`, against the reference. Terms
-    /// named by --method keep theirs
+    /// named by --method keep theirs, and so does diffuse, whose methods are different materials
     #[arg(long, value_name = "E", value_parser = parse_error)]
     max_error: Option<f64>,
     /// Print as JSON what was left out of the shader, why and what that saves, and what --max-error chose

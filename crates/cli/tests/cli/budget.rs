@@ -62,6 +62,48 @@ fn the_cheapest_choice_within_an_error_is_taken() {
     assert!(at_most.zip(smallest.parse().ok()).is_some_and(|(reached, asked)| reached <= asked), "{tight}");
 }
 
+/// What the diffuse part means is Lambert's reflection unless another is named: then no model stands between the choice and the error.
+#[test]
+fn a_diffuse_model_is_kept_and_true() {
+    let folder = Folder::new();
+    let matt = r#"{"halfvector": 1, "name": "matt", "nodes": {"surface": {"node": "surface/surface",
+        "values": {"base_color": [0.8, 0.8, 0.8], "specular": 0, "perceptual_roughness": 0.9}}}, "links": []}"#;
+    folder.write("metal.material.json", matt);
+    let budget = |output: &str, more: &[&str]| -> Value {
+        let arguments = [&["--max-error", "5", "--explain"], more].concat();
+        export(&folder, output, &arguments).ends(0).json()["budget"].clone()
+    };
+    let (own, named) = (budget("own", &[]), budget("named", &["--method", "diffuse=lambert"]));
+    let at_most = |budget: &Value| budget["reached"]["studio"]["at_most"].as_f64().expect("a number");
+    for budget in [&own, &named] {
+        assert!(budget["kept"].as_array().is_some_and(|kept| kept.contains(&"diffuse=lambert".into())), "{budget}");
+        assert!(
+            at_most(budget) < 0.06,
+            "an environment's irradiance is Lambert's own, but for the truth's noise: {budget}"
+        );
+    }
+    assert_eq!(own["reached"], named["reached"]);
+    // Another model is true where it is named, and irradiance approximates it.
+    let rough = budget("rough", &["--method", "diffuse=eon"]);
+    assert!(at_most(&rough) > 0.12, "{rough} {own}");
+}
+
+/// The reference displaces nothing, so neither does the shader that is held against it.
+#[test]
+fn a_height_does_not_change_the_error() {
+    let folder = Folder::new();
+    let with = |nodes: &str, links: &str| {
+        let text = METAL.replace("\"nodes\": {", &format!("\"nodes\": {{{nodes}")).replace("[]", &format!("[{links}]"));
+        folder.write("metal.material.json", &text);
+        export(&folder, "x", &["--max-error", "5", "--explain"]).ends(0).json()["budget"].clone()
+    };
+    let flat = with("", "");
+    let noise = r#""noise": {"node": "procedural/value_noise_2d", "values": {"scale": 9}},"#;
+    let displaced = with(noise, r#"{"from": "noise.out", "to": "surface.height"}"#);
+    assert!(flat["reached"]["studio"]["error"].as_f64().is_some_and(|error| error > 0.0), "{flat}");
+    assert_eq!(flat["reached"], displaced["reached"]);
+}
+
 #[test]
 fn errors_that_make_no_sense_are_refused() {
     let folder = Folder::new();

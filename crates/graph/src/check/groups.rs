@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::{Checker, Problem, Severity, counts, links, nodes, words};
+use super::{Checker, Findings, Severity, counts, links, nodes, words};
 use crate::context::{CONTEXTS, context};
 use crate::document::{Document, GROUP_OUTPUT, Group, GroupInput, group_of, is_group_id, is_name};
 use crate::group::{Extents, live_nodes, output_node};
@@ -12,14 +12,19 @@ use crate::value::{SocketType, Type};
 use crate::wiring::Wiring;
 
 /// All problems of a document's groups. `live` are the nodes of the top level that reach the surface: what stands in a group that
-/// none of them uses, directly or not, is a warning.
-pub(super) fn check(document: &Document, library: &Library, extents: &Extents, live: &[String]) -> Vec<Problem> {
+/// none of them uses, directly or not, is a warning. They are added to `findings`.
+pub(super) fn check(
+    document: &Document,
+    library: &Library,
+    extents: &Extents,
+    live: &[String],
+    mut findings: Findings,
+) -> Findings {
     let used = used_groups(document, live);
-    let mut problems = Vec::new();
     for (id, group) in &document.groups {
         let inside = library.inside(group);
         let wiring = Wiring::new(&group.graph);
-        let mut checker = Checker::new(document, &group.graph, &inside, &wiring);
+        let mut checker = Checker::new(document, &group.graph, &inside, &wiring, findings);
         let label = if group.interface.label.is_empty() { id.as_str() } else { &group.interface.label };
         checker.group = Some((id, label));
         checker.is_used = used.contains(id.as_str());
@@ -29,9 +34,9 @@ pub(super) fn check(document: &Document, library: &Library, extents: &Extents, l
             checker.live = group.graph.nodes.keys().map(String::as_str).filter(is_live).collect();
         }
         one(&mut checker, id, group, extents);
-        problems.append(&mut checker.problems);
+        findings = checker.findings;
     }
-    problems
+    findings
 }
 
 /// The groups that some nodes of the top level use, directly or not.

@@ -42,7 +42,7 @@ fn ends(checker: &mut Checker, link: &Link) {
     let wanted = to.map(|types| types.input(&link.to.socket));
     let given = from.map(|types| types.output(&link.from.socket));
     if let (Some(types), Some(None)) = (to, wanted) {
-        let message = format!("a link comes from {}, but {}", link.from, no_input(types.def, &link.to.socket));
+        let message = format!("a link comes from {}, but {}", link.from, no_input(checker, types.def, &link.to.socket));
         checker.wrong(&link.to.node, Some(&link.to.socket), message);
     }
     if let (Some(types), Some(None)) = (from, given) {

@@ -5,17 +5,12 @@ use crate::document::{GROUP_INPUT, GROUP_OUTPUT, Node, NodeId, function_of, grou
 use crate::node_def::{Default, Input, NodeDef};
 use crate::value::{ImageRef, SocketType, Value};
 
-/// Unknown definitions for which a likely name is searched: a hostile document has many.
-const MAX_SEARCHES: usize = 100;
-
 pub(super) fn check(checker: &mut Checker) {
     let graph = checker.graph;
-    let mut searches = 0;
     for (id, node) in &graph.nodes {
         name(checker, id, node);
         let Some(def) = checker.library.get(&node.node) else {
-            searches += 1;
-            unknown_definition(checker, id, node, searches <= MAX_SEARCHES);
+            unknown_definition(checker, id, node);
             continue;
         };
         for (socket, value) in &node.values {
@@ -57,11 +52,12 @@ fn name(checker: &mut Checker, id: &NodeId, node: &Node) {
     }
 }
 
-fn unknown_definition(checker: &mut Checker, id: &str, node: &Node, search: bool) {
+fn unknown_definition(checker: &mut Checker, id: &str, node: &Node) {
     let library = checker.library;
+    let search = checker.findings.may_search();
     if let Some(group) = group_of(&node.node) {
         let known = library.iter().filter_map(|def| group_of(&def.id));
-        let remedy = match words::nearest(group, known) {
+        let remedy = match if search { words::nearest(group, known) } else { None } {
             Some(likely) => format!("did you mean `group/{likely}`?"),
             None => "import it, or remove the node.".into(),
         };
@@ -101,13 +97,16 @@ fn unknown_definition(checker: &mut Checker, id: &str, node: &Node, search: bool
 }
 
 fn unknown_value(checker: &mut Checker, id: &str, def: &NodeDef, socket: &str) {
-    let message = format!("a value is set on `{socket}`, but {}", no_input(def, socket));
+    let message = format!("a value is set on `{socket}`, but {}", no_input(checker, def, socket));
     checker.wrong(id, Some(socket), message);
 }
 
 /// Says that there is no such input, and what there is.
-pub(super) fn no_input(def: &NodeDef, socket: &str) -> String {
+pub(super) fn no_input(checker: &mut Checker, def: &NodeDef, socket: &str) -> String {
     let names = || def.inputs.iter().map(|input| input.name.as_str());
+    if !checker.findings.may_search() {
+        return format!("`{}` has no such input", def.id);
+    }
     match words::nearest(socket, names()) {
         Some(likely) => format!("`{}` has no such input; did you mean `{likely}`?", def.id),
         None if def.inputs.is_empty() => format!("`{}` has no inputs", def.id),

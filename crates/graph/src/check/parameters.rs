@@ -40,10 +40,11 @@ fn one(checker: &mut Checker, parameter: &Parameter) {
     };
     // An unknown definition is reported with its node.
     let Some(def) = checker.library.get(&set.node) else { return };
-    let mut say = |message: String| checker.wrong(node, Some(socket), message);
     let Some(input) = def.inputs.iter().find(|input| input.name == socket) else {
-        return say(format!("the parameter `{name}` sets it, but {}", nodes::no_input(def, socket)));
+        let message = format!("the parameter `{name}` sets it, but {}", nodes::no_input(checker, def, socket));
+        return checker.wrong(node, Some(socket), message);
     };
+    let mut say = |message: String| checker.wrong(node, Some(socket), message);
     if !matches!(input.ty, SocketType::Value(_) | SocketType::Generic) {
         return say(format!(
             "the parameter `{name}` sets it, but only numbers, vectors and switches can be parameters"

@@ -17,7 +17,7 @@ pub(super) fn check(checker: &mut Checker) {
         .filter_map(|surface| checker.wiring.incoming(surface, "height"))
         .map(|height| height.node.as_str())
         .collect();
-    if !feeding.is_empty() || parts.iter().any(|surface| is_displaced(checker, surface)) {
+    if !feeding.is_empty() || is_displaced(checker, &parts) {
         let mixes = checker.live.iter().filter(|id| is_mix(checker, id));
         feeding.extend(mixes.filter_map(|id| checker.wiring.incoming(id, "t")).map(|weight| weight.node.as_str()));
         feeding.sort_unstable();
@@ -35,12 +35,15 @@ fn is_mix(checker: &Checker, id: &str) -> bool {
     checker.graph.nodes.get(id).is_some_and(|node| node.node == SURFACE_MIX)
 }
 
-/// Whether a height is set on a surface, or may be by a parameter.
-fn is_displaced(checker: &Checker, surface: &str) -> bool {
-    let set = checker.graph.nodes.get(surface).and_then(|node| node.values.get("height"));
-    let exposed = |socket: &SocketRef| socket.node == surface && socket.socket == "height";
-    set.and_then(Value::components).is_some_and(|c| c.iter().any(|x| *x != 0.0))
-        || checker.document.parameters.iter().any(|parameter| exposed(&parameter.socket))
+/// Whether a height is set on one of some surfaces, which are sorted, or may be by a parameter.
+fn is_displaced(checker: &Checker, surfaces: &[&str]) -> bool {
+    let set = |surface: &&str| {
+        let value = checker.graph.nodes.get(*surface).and_then(|node| node.values.get("height"));
+        value.and_then(Value::components).is_some_and(|c| c.iter().any(|x| *x != 0.0))
+    };
+    let exposed =
+        |socket: &SocketRef| socket.socket == "height" && surfaces.binary_search(&socket.node.as_str()).is_ok();
+    surfaces.iter().any(set) || checker.document.parameters.iter().any(|parameter| exposed(&parameter.socket))
 }
 
 fn vertex_stage(checker: &mut Checker, id: &str) {

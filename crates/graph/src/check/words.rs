@@ -81,7 +81,12 @@ pub(crate) fn nearest<'c>(name: &str, candidates: impl Iterator<Item = &'c str>)
     if name.len() > 64 {
         return None;
     }
-    let best = candidates.map(|candidate| (distance(name, candidate), candidate)).min_by_key(|(distance, _)| *distance);
+    // As much as the lengths differ at least.
+    let is_near = |candidate: &&str| candidate.len().abs_diff(name.len()) * 3 <= name.len().max(candidate.len());
+    let best = candidates
+        .filter(is_near)
+        .map(|candidate| (distance(name, candidate), candidate))
+        .min_by_key(|(distance, _)| *distance);
     best.filter(|(distance, candidate)| *distance * 3 <= name.len().max(candidate.len()))
         .map(|(_, candidate)| candidate)
 }

@@ -2,21 +2,25 @@
 //! whole document with these values set; images of the other file keep their places. What a value may be is what the other
 //! material offers: its type, and the range where the parameter states one.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::read::material_from_json;
 use super::{FileError, Loaded, load_as};
-use crate::check::words;
-use crate::document::{Document, Graph};
+use crate::check::{MAX_PARAMETERS, words};
+use crate::document::{Document, Graph, SocketRef};
 use crate::library::Library;
 use crate::resolve::resolve_types;
 use crate::value::{SocketType, Value};
 
 /// Most instances of instances.
 pub const MAX_INSTANCE_DEPTH: usize = 32;
+/// Largest file of an instance, in bytes: it holds numbers by name.
+const MAX_INSTANCE_BYTES: usize = 256 << 10;
+/// Most names of parameters that are told.
+const MAX_NAMES: usize = 32;
 
 /// A material's file: the material, or an instance of another one.
 #[derive(Debug)]
@@ -28,12 +32,16 @@ pub(super) enum Material {
 /// An instance as it is written.
 #[derive(Debug)]
 pub(super) struct Instance {
+    /// Of the format.
+    pub(super) version: u32,
     /// The other material's name when absent.
     pub(super) name: Option<String>,
     /// The other material's file, from this one's folder.
     pub(super) base: String,
     /// Parameters by name, in the order of the file.
     pub(super) set: Vec<(String, Value)>,
+    /// Fields of a newer version, kept for saving.
+    pub(super) unknown: serde_json::Map<String, serde_json::Value>,
 }
 
 /// Why an instance was not read.
@@ -57,6 +65,9 @@ pub enum InstanceError {
         /// The files, from this one to this one.
         files: Vec<String>,
     },
+    /// The file is large.
+    #[error("it is larger than {} KiB, too large for an instance, which only sets parameters", MAX_INSTANCE_BYTES >> 10)]
+    TooLarge,
     /// A long row of instances.
     #[error("more than {MAX_INSTANCE_DEPTH} instances are based on each other; give it the whole material as base")]
     TooDeep,
@@ -116,6 +127,9 @@ pub(super) fn load(path: &Path) -> Result<Loaded, FileError> {
         source: Box::new(FileError::Instance(why)),
     };
     let base_of = |path: &Path, instance: &Instance| path.parent().unwrap_or(Path::new("")).join(&instance.base);
+    if bytes.len() > MAX_INSTANCE_BYTES {
+        return Err(in_file(path, InstanceError::TooLarge));
+    }
     // From the file that was asked for to the one that is a whole material.
     let mut seen = HashSet::from([real(path)]);
     let mut next = base_of(path, &instance);
@@ -129,11 +143,14 @@ pub(super) fn load(path: &Path) -> Result<Loaded, FileError> {
         if chain.len() >= MAX_INSTANCE_DEPTH {
             return Err(in_file(path, InstanceError::TooDeep));
         }
-        let (material, _) = stored(&next)
+        let (material, bytes) = stored(&next)
             .and_then(|()| load_as(&next, material_from_json))
             .map_err(|source| in_file(user, InstanceError::Base { source: Box::new(source) }))?;
         match material {
             Material::Whole(document) => break *document,
+            Material::Instance(_) if bytes.len() > MAX_INSTANCE_BYTES => {
+                return Err(in_file(&next, InstanceError::TooLarge));
+            }
             Material::Instance(instance) => {
                 let base = base_of(&next, &instance);
                 chain.push((next, instance));
@@ -141,11 +158,50 @@ pub(super) fn load(path: &Path) -> Result<Loaded, FileError> {
             }
         }
     };
-    for (path, instance) in chain.into_iter().rev() {
-        rebase(&mut document, &instance.base);
-        set(&mut document, instance).map_err(|why| in_file(&path, why))?;
-    }
+    join(&mut document, chain, in_file)?;
     Ok(Loaded { document, bytes, is_instance: true })
+}
+
+/// Makes of a whole material what a row of instances, the outermost first, stands for. What an outer one says counts.
+fn join(
+    document: &mut Document,
+    chain: Vec<(PathBuf, Instance)>,
+    in_file: impl Fn(&Path, InstanceError) -> FileError,
+) -> Result<(), FileError> {
+    let offers = offers(document);
+    let mut values: HashMap<SocketRef, Value> = HashMap::new();
+    let (mut name, mut unknown) = (None, serde_json::Map::new());
+    // The way from the outermost file's folder to that of the file at hand.
+    let mut way: Option<String> = None;
+    for (path, instance) in chain {
+        document.version = document.version.max(instance.version);
+        name = name.or(instance.name);
+        for (key, value) in instance.unknown {
+            unknown.entry(key).or_insert(value);
+        }
+        for (name, value) in instance.set {
+            let (socket, mut value) = fitting(&offers, document, name, value).map_err(|why| in_file(&path, why))?;
+            move_image(&mut value, way.as_deref());
+            values.entry(socket).or_insert(value);
+        }
+        if let Some((folder, _)) = instance.base.rsplit_once(['/', '\\']) {
+            way = Some(
+                way.filter(|_| !is_absolute(&instance.base))
+                    .map_or(folder.to_string(), |way| format!("{way}/{folder}")),
+            );
+        }
+    }
+    let graphs = document.groups.values_mut().map(|group| &mut group.graph).chain([&mut document.graph]);
+    let nodes = graphs.flat_map(|graph: &mut Graph| graph.nodes.values_mut());
+    nodes.flat_map(|node| node.values.values_mut()).for_each(|value| move_image(value, way.as_deref()));
+    for (socket, value) in values {
+        if let Some(node) = document.graph.nodes.get_mut(&socket.node) {
+            node.values.insert(socket.socket, value);
+        }
+    }
+    document.name = name.unwrap_or(std::mem::take(&mut document.name));
+    document.unknown.extend(unknown);
+    Ok(())
 }
 
 /// Refuses what need not end, such as a pipe: nobody chose it but the file.
@@ -160,69 +216,80 @@ fn real(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| path.into())
 }
 
-/// Images that are named from the base's folder, named from the instance's.
-fn rebase(document: &mut Document, base: &str) {
-    let Some((folder, _)) = base.rsplit_once(['/', '\\']) else { return };
-    let graphs = document.groups.values_mut().map(|group| &mut group.graph).chain([&mut document.graph]);
-    let values =
-        graphs.flat_map(|graph: &mut Graph| graph.nodes.values_mut()).flat_map(|node| node.values.values_mut());
-    for value in values {
-        if let Value::Image(image) = value {
-            let is_absolute = image.file.starts_with(['/', '\\']) || image.file.as_bytes().get(1) == Some(&b':');
-            if !image.file.is_empty() && !is_absolute {
-                image.file = format!("{folder}/{}", image.file);
-            }
-        }
+/// Names a picture from the folder that `way` starts from, where it was named from the one that it leads to.
+fn move_image(value: &mut Value, way: Option<&str>) {
+    if let (Value::Image(image), Some(way)) = (value, way)
+        && !image.file.is_empty()
+        && !is_absolute(&image.file)
+    {
+        image.file = format!("{way}/{}", image.file);
     }
 }
 
-/// Sets what an instance changes.
-fn set(document: &mut Document, instance: Instance) -> Result<(), InstanceError> {
-    if let Some(name) = instance.name {
-        document.name = name;
-    }
+fn is_absolute(file: &str) -> bool {
+    file.starts_with(['/', '\\']) || file.as_bytes().get(1) == Some(&b':')
+}
+
+/// What a parameter of the base takes.
+struct Offer {
+    socket: SocketRef,
+    range: Option<[f32; 2]>,
+    /// None when the input is not there.
+    ty: Option<SocketType>,
+}
+
+/// The parameters of a material by name; of equal names the first. A value that fits leaves all types as they are, so they hold
+/// for instances of instances, too.
+fn offers(document: &Document) -> HashMap<String, Offer> {
     let library = Library::standard().of(document);
-    // A value that fits leaves all types as they are.
     let types = resolve_types(&document.graph, &library);
-    let mut fitting = Vec::with_capacity(instance.set.len());
-    for (name, value) in instance.set {
-        let Some(parameter) = document.parameters.iter().find(|parameter| parameter.name == name) else {
-            return Err(unknown(document, name));
-        };
-        let (socket, range) = (parameter.socket.clone(), parameter.range);
-        let Some(ty) = types.get(&socket.node).and_then(|types| types.input(&socket.socket)) else {
-            return Err(InstanceError::NoSocket { name, socket: socket.to_string() });
-        };
-        let numbers = match (ty, &value) {
-            (SocketType::Texture, Value::Image(_)) => Some(Vec::new()),
-            (SocketType::Value(ty), value) => value.components_as(ty).filter(|c| c.iter().all(|x| x.is_finite())),
-            _ => None,
-        };
-        let Some(numbers) = numbers else {
-            let (wanted, example) = (words::socket_type(ty).into(), words::example(ty).into());
-            return Err(InstanceError::Type { name, given: words::value(&value), wanted, example });
-        };
-        if let Some([low, high]) = range
-            && let Some(given) = numbers.into_iter().find(|x| !(low..=high).contains(x))
-        {
-            return Err(InstanceError::Range { name, given, low, high });
-        }
-        fitting.push((socket, value));
+    let mut offers = HashMap::new();
+    for parameter in &document.parameters {
+        let socket = &parameter.socket;
+        let ty = types.get(&socket.node).and_then(|types| types.input(&socket.socket));
+        let offer = Offer { socket: socket.clone(), range: parameter.range, ty };
+        offers.entry(parameter.name.clone()).or_insert(offer);
     }
-    for (socket, value) in fitting {
-        if let Some(node) = document.graph.nodes.get_mut(&socket.node) {
-            node.values.insert(socket.socket, value);
-        }
+    offers
+}
+
+/// The input that a parameter stands for, and the value if it may have it.
+fn fitting(
+    offers: &HashMap<String, Offer>,
+    document: &Document,
+    name: String,
+    value: Value,
+) -> Result<(SocketRef, Value), InstanceError> {
+    let Some(Offer { socket, range, ty }) = offers.get(&name) else { return Err(unknown(document, name)) };
+    let Some(ty) = *ty else { return Err(InstanceError::NoSocket { name, socket: socket.to_string() }) };
+    let numbers = match (ty, &value) {
+        (SocketType::Texture, Value::Image(_)) => Some(Vec::new()),
+        (SocketType::Value(ty), value) => value.components_as(ty).filter(|c| c.iter().all(|x| x.is_finite())),
+        _ => None,
+    };
+    let Some(numbers) = numbers else {
+        let (wanted, example) = (words::socket_type(ty).into(), words::example(ty).into());
+        return Err(InstanceError::Type { name, given: words::value(&value), wanted, example });
+    };
+    if let Some([low, high]) = *range
+        && let Some(given) = numbers.into_iter().find(|x| !(low..=high).contains(x))
+    {
+        return Err(InstanceError::Range { name, given, low, high });
     }
-    Ok(())
+    Ok((socket.clone(), value))
 }
 
 fn unknown(document: &Document, name: String) -> InstanceError {
-    let names: Vec<&str> = document.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-    let known = match words::nearest(&name, names.iter().copied()) {
+    let names = || document.parameters.iter().take(MAX_PARAMETERS).map(|parameter| parameter.name.as_str());
+    let known = match words::nearest(&name, names()) {
         Some(likely) => format!("did you mean `{likely}`?"),
-        None if names.is_empty() => "it offers none: make inputs of it parameters first".into(),
-        None => format!("it offers {}", names.join(", ")),
+        None if document.parameters.is_empty() => "it offers none: make inputs of it parameters first".into(),
+        None => {
+            let told: Vec<&str> = names().take(MAX_NAMES).collect();
+            let more = document.parameters.len() - told.len();
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            format!("it offers {}{more}", told.join(", "))
+        }
     };
     InstanceError::Unknown { name, known }
 }

@@ -72,43 +72,57 @@ fn read_material(root: Spanned) -> Result<Material, Wrong> {
     let members = object(root, "the document")?;
     let version = version(&members, at)?;
     if members.iter().any(|member| member.key == "base") {
-        return read_instance(members, version > FORMAT_VERSION).map(Material::Instance);
+        return read_instance(members, version).map(Material::Instance);
     }
     read_document(members, version, at).map(|document| Material::Whole(Box::new(document)))
 }
 
-/// An instance. Of a newer version only what is understood is taken: nothing is written back to it.
-fn read_instance(members: Vec<Member>, newer: bool) -> Result<Instance, Wrong> {
-    let mut instance = Instance { name: None, base: String::new(), set: Vec::new() };
+/// An instance. What a newer version has beside is kept, but for what a whole material has under the same name: nobody knows how that and
+/// the base's go together.
+fn read_instance(members: Vec<Member>, version: u32) -> Result<Instance, Wrong> {
+    let newer = version > FORMAT_VERSION;
+    let why = format!(
+        "; the file is of format {version}, this program knows up to {FORMAT_VERSION}: a newer one may read it"
+    );
+    let in_newer = |mut e: Wrong| {
+        if newer {
+            e.message += &why;
+        }
+        e
+    };
+    let mut instance = Instance { version, name: None, base: String::new(), set: Vec::new(), unknown: Map::new() };
     for Member { at, key, value } in members {
         match key.as_str() {
             "halfvector" => {}
-            "name" => instance.name = Some(text(value, "name")?),
+            "name" => instance.name = Some(text(value, "name").map_err(in_newer)?),
             "base" => {
                 let at = value.at;
-                instance.base = text(value, "base")?;
+                instance.base = text(value, "base").map_err(in_newer)?;
                 if instance.base.is_empty() {
                     return wrong(at, "base", "it names no file; write the way from this file's folder to a material");
                 }
             }
             "set" => {
-                for Member { key, value, .. } in object(value, "set")? {
-                    let set = socket_value(&value, &format!("set.{key}"))?;
+                for Member { key, value, .. } in object(value, "set").map_err(in_newer)? {
+                    let set = socket_value(&value, &format!("set.{key}")).map_err(in_newer)?;
                     instance.set.push((key, set));
                 }
             }
-            _ if newer => {}
+            _ if newer && !SECTIONS.contains(&key.as_str()) => {
+                instance.unknown.insert(key, value.json.into_plain());
+            }
             _ => {
-                return wrong(
-                    at,
-                    &key,
-                    "an instance has the fields name, base and set; leave this out, or leave out `base` for a material of its own",
-                );
+                let message = "an instance has the fields name, base and set; leave this out, or leave out `base` for a material of its own";
+                return wrong(at, &key, message).map_err(in_newer);
             }
         }
     }
     Ok(instance)
 }
+
+/// The fields of a whole material that an instance has not.
+const SECTIONS: [&str; 9] =
+    ["nodes", "links", "parameters", "surface", "groups", "functions", "layout", "frames", "comments"];
 
 fn read_document(members: Vec<Member>, version: u32, at: usize) -> Result<Document, Wrong> {
     let mut reader = Reader { newer: version > FORMAT_VERSION, unknown: Map::new() };

@@ -254,3 +254,18 @@ fn too_many_mixtures_are_refused() {
     let problems = with(MAX_MIXTURES + 1);
     assert!(problems.iter().any(|p| p.message.contains("no shader has more than 1000")), "{problems:?}");
 }
+
+/// Where surfaces mix each other in a ring, none is the last one: the ring is what is told, and not that there is none.
+#[test]
+fn a_ring_of_mixtures_is_named() {
+    let mut d = Document::new("ring");
+    for (id, from) in [("a", "b"), ("b", "a")] {
+        d.graph.nodes.insert(id.into(), Node::new(SURFACE_MIX));
+        d.graph.links.push(link(&format!("{from}.out"), &format!("{id}.a")));
+    }
+    let problems = check(&d, crate::library::Library::standard());
+    let of_document: Vec<&Problem> = problems.iter().filter(|p| p.node.is_none()).collect();
+    assert_eq!(of_document.len(), 1, "{problems:?}");
+    assert!(of_document[0].message.contains("in a ring") && of_document[0].message.contains("(a)"), "{problems:?}");
+    assert!(!of_document[0].message.contains("no surface node"), "{problems:?}");
+}

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::document::Document;
-use crate::file::{from_json, load, load_whole};
+use crate::file::{from_json, load, load_whole, to_json};
 use crate::value::Value;
 
 const BASE: &str = r#"{"halfvector": 1, "name": "Paint", "nodes": {
@@ -130,4 +130,60 @@ fn a_base_is_a_stored_file() {
     };
     assert!(why("base").contains("it is no file that is stored"), "{}", why("base"));
     assert!(why("").contains("it names no file"), "{}", why(""));
+}
+
+/// What a newer version wrote beside is kept when what the instance stands for is saved, and its version is told; what cannot be joined with
+/// the base is refused with the field and the version.
+#[test]
+fn instances_of_a_newer_version_lose_nothing() {
+    let loaded = |text: &str| {
+        let folder = with("new.material.json", text);
+        load(&folder.path().join("new.material.json")).map_err(|e| e.to_string())
+    };
+    let text = r#"{"halfvector": 9, "base": "base/paint.material.json", "set": {"roughness": 0.5},
+        "wear": {"amount": 0.25}, "tags": ["blue"]}"#;
+    let made = loaded(text).expect("an instance");
+    assert_eq!((made.version, made.unknown.len()), (9, 2));
+    let saved = to_json(&made);
+    assert!(saved.contains("\"halfvector\": 9") && saved.contains("\"wear\": {\"amount\": 0.25}"), "{saved}");
+    assert_eq!(from_json(&saved).expect("a document"), made);
+    let problems = crate::check::check(&made, crate::library::Library::standard());
+    for part in ["format 9", "`wear`", "`tags`"] {
+        assert!(problems.iter().any(|problem| problem.message.contains(part)), "{part}: {problems:?}");
+    }
+    for (field, place) in [
+        (r#""nodes": {}"#, "at nodes:"),
+        (r#""parameters": []"#, "at parameters:"),
+        (r#""set": {"roughness": {"curve": [0, 1]}}"#, "at set.roughness.curve:"),
+        (r#""set": [1]"#, "at set:"),
+    ] {
+        let why =
+            loaded(&format!(r#"{{"halfvector": 9, "base": "base/paint.material.json", {field}}}"#)).expect_err(field);
+        assert!(why.contains(place) && why.contains("format 9, this program knows up to 1"), "{field}: {why}");
+    }
+}
+
+/// Its own picture is named from the folder of the instance that sets it, and a way from the root stays.
+#[test]
+fn pictures_of_instances_of_instances_are_found() {
+    let picture = r#""picture": {"file": "own.png", "color_space": "srgb"}"#;
+    let first = format!(r#"{{"halfvector": 1, "base": "../base/paint.material.json", "set": {{{picture}}}}}"#);
+    let folder = with("last.material.json", r#"{"halfvector": 1, "base": "b/first.material.json"}"#);
+    fs::create_dir(folder.path().join("b")).expect("a folder");
+    let last = folder.path().join("last.material.json");
+    fs::write(folder.path().join("b/first.material.json"), first).expect("written");
+    assert_eq!(image(&load(&last).expect("an instance")), "b/own.png");
+    let base = folder.path().join("base/paint.material.json");
+    let text = format!(r#"{{"halfvector": 1, "base": {:?}}}"#, base.display().to_string());
+    fs::write(folder.path().join("b/first.material.json"), text).expect("written");
+    let found = image(&load(&last).expect("an instance")).to_owned();
+    assert_eq!(Path::new(&found), folder.path().join("base/maps/a.png"));
+}
+
+#[test]
+fn large_instances_are_refused() {
+    let text = format!(r#"{{"halfvector": 1, "base": "base/paint.material.json"{}}}"#, " ".repeat(300 << 10));
+    let folder = with("large.material.json", &text);
+    let why = load(&folder.path().join("large.material.json")).expect_err("too large").to_string();
+    assert!(why.contains("256 KiB"), "{why}");
 }
