@@ -208,3 +208,28 @@ fn the_same_bytes_at_any_number_of_threads() {
     let far = one.pixels.as_flattened().iter().zip(exact.pixels.as_flattened()).map(|(a, b)| (a - b).abs());
     assert!(far.fold(0.0, f32::max) < 1e-4, "f32 and f64 draw the same");
 }
+
+/// A node whose function need not end is refused by its name, the line and what to write instead.
+#[test]
+fn a_loop_without_end_is_told_by_its_function() {
+    let draw = |head: &str| {
+        let text = format!(
+            r#"{{"halfvector": 1, "name": "Slow", "nodes": {{"slow": {{"node": "custom/slow"}}, "surface":
+            {{"node": "surface/surface"}}}}, "links": [{{"from": "slow.out", "to": "surface.metallic"}}],
+            "functions": {{"slow": ["/// Slow", "///", "/// Counts.", "/// @node custom/slow", "/// - x: start [0]",
+            "/// - return: end", "fn slow(x: f32) -> f32 {{", "    var sum = x;",
+            "    {head} {{ sum = fract(sum * 1.5 + 0.1); }}", "    return sum;", "}}"]}}}}"#
+        );
+        let document = halfvector_graph::file::from_json(&text).unwrap_or_else(|e| panic!("{e}"));
+        let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
+        let mut scene = Scene::from_material(document, &root(), &sphere).unwrap_or_else(|e| panic!("{e}"));
+        (scene.environment, scene.background) = (EnvironmentSource::None, Background::None);
+        let options = RasterOptions { width: 8, height: 8, samples_per_side: 1, ..RasterOptions::default() };
+        halfvector_raster::draw::<f32>(&scene, None, &options, |_| {}).map_or_else(|e| e.to_string(), |_| String::new())
+    };
+    assert_eq!(draw("for (var i = 0; i < 8; i++)"), "");
+    for endless in ["loop", "while true", "for (var i = 0; ; i++)", "for (var i = 0; i < 8; i += 0)"] {
+        let told = draw(endless);
+        assert!(told.contains("`slow`") && told.contains("line 9"), "{endless}: {told}");
+    }
+}

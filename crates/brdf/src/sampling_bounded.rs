@@ -101,10 +101,17 @@ pub fn sample_ggx_bounded<R: Real>(view: [R; 3], alpha_t: R, alpha_b: R, u: [R; 
 #[inline]
 pub fn pdf_solid_angle_ggx_bounded<R: Real>(view: [R; 3], dir: [R; 3], alpha_t: R, alpha_b: R) -> R {
     let h = normalize_or(add(view, dir), [R::ZERO; 3]);
+    let density = R::of(0.5) * d_two_widths(h, alpha_t, alpha_b) / area_ggx_bounded(view, alpha_t, alpha_b);
+    R::choose(R::ZERO.lt(h[2]), density, R::ZERO)
+}
+
+/// What D(h) / 2 is divided by in [`pdf_solid_angle_ggx_bounded`]: k n.v + |(alpha_t v.x, alpha_b v.y, v.z)|, for who
+/// knows D(h) already. Never below 1e-36.
+#[inline]
+pub fn area_ggx_bounded<R: Real>(view: [R; 3], alpha_t: R, alpha_b: R) -> R {
     let stretched = [alpha_t * view[0], alpha_b * view[1], view[2]];
     let area = cap_bound(view, alpha_t, alpha_b) * view[2] + dot(stretched, stretched).sqrt();
-    let density = R::of(0.5) * d_two_widths(h, alpha_t, alpha_b) / area.max(R::of(AREA_FLOOR));
-    R::choose(R::ZERO.lt(h[2]), density, R::ZERO)
+    area.max(R::of(AREA_FLOOR))
 }
 
 /// A direction of the upper hemisphere with density n.l / pi. Malley's method: a point of the unit disc, lifted.

@@ -45,7 +45,7 @@ pub use load::{
 pub use quadrature::Quadrature;
 pub use repair::{MAX_RADIANCE, Repairs, repair};
 pub use resample::{cube_from_equirect, equirect_from_cube};
-pub use sampling::{EnvironmentSample, EnvironmentSampler, equirect_texel_solid_angle};
+pub use sampling::{EnvironmentSample, EnvironmentSampler, alias_table, equirect_texel_solid_angle};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

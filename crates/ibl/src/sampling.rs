@@ -101,8 +101,11 @@ fn grey([r, g, b]: [f32; 3]) -> f64 {
     f64::from(r) + f64::from(g) + f64::from(b)
 }
 
-/// Slots of equal size: each with the share that is its own, and whose the rest is.
-fn alias_table(weights: &[f64]) -> Vec<(f64, u32)> {
+/// Slots of equal size for drawing by weight: each with the share that is its own, and whose the rest is. Walker 1977, "An
+/// Efficient Method for Generating Discrete Random Variables with General Distributions".
+///
+/// `weights` are finite and not below 0, and not all 0. What has no weight has no share.
+pub fn alias_table(weights: &[f64]) -> Vec<(f64, u32)> {
     let scale = weights.len() as f64 / weights.iter().sum::<f64>();
     let mut left: Vec<f64> = weights.iter().map(|weight| weight * scale).collect();
     let mut slots: Vec<(f64, u32)> = (0..weights.len()).map(|k| (1.0, k as u32)).collect();

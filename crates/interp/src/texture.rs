@@ -158,11 +158,16 @@ impl Texture {
             return [0.0; 4];
         }
         let texel = ((layer * size[2] + at[2]) * size[1] + at[1]) as usize * size[0] as usize + at[0] as usize;
+        self.texel(level as usize, texel)
+    }
+
+    /// A texel of a level by its number.
+    fn texel(&self, level: usize, number: usize) -> [f32; 4] {
         match &self.levels {
-            Levels::Floats(levels) => levels[level as usize].texels[texel],
-            Levels::Codes(levels) => levels[level as usize].texels[texel].map(unit),
+            Levels::Floats(levels) => levels[level].texels[number],
+            Levels::Codes(levels) => levels[level].texels[number].map(unit),
             Levels::SrgbCodes(levels) => {
-                let [r, g, b, a] = levels[level as usize].texels[texel];
+                let [r, g, b, a] = levels[level].texels[number];
                 let linear = |code: u8| LINEAR_FROM_SRGB[usize::from(code)];
                 [linear(r), linear(g), linear(b), unit(a)]
             }
@@ -190,6 +195,23 @@ pub enum Address {
     Clamp,
     /// The texture is repeated, every other time mirrored.
     Mirror,
+}
+
+impl Address {
+    /// The texel that stands for one that may lie outside of `0..count`.
+    fn wrapped(self, at: i64, count: i64) -> i64 {
+        if (0..count).contains(&at) {
+            return at;
+        }
+        match self {
+            Address::Clamp => at.clamp(0, count - 1),
+            Address::Repeat => at.rem_euclid(count),
+            Address::Mirror => {
+                let place = at.rem_euclid(2 * count);
+                place.min(2 * count - 1 - place)
+            }
+        }
+    }
 }
 
 /// How numbers between texels or levels are found.
@@ -406,11 +428,36 @@ impl Texture {
         if filter == Filter::Nearest {
             return self.tap(first, spot.layer, level, sampler);
         }
+        if dimensions == 2
+            && let Some([[left, right], [top, bottom]]) = self.pairs(first, size, sampler)
+        {
+            let row = |y: usize| (spot.layer as usize * size[1] as usize + y) * size[0] as usize;
+            let (upper, lower) = (row(top), row(bottom));
+            let texel = |number: usize| self.texel(level, number).map(|x| F::number(f64::from(x)));
+            let above = mix(texel(upper + left), texel(upper + right), part[0]);
+            return mix(above, mix(texel(lower + left), texel(lower + right), part[0]), part[1]);
+        }
         let step =
             |x: i64, y: i64, z: i64| self.tap([first[0] + x, first[1] + y, first[2] + z], spot.layer, level, sampler);
         let row = |y, z| mix(step(0, y, z), step(1, y, z), part[0]);
         let plane = |z| if dimensions > 1 { mix(row(0, z), row(1, z), part[1]) } else { row(0, z) };
         if dimensions > 2 { mix(plane(0), plane(1), part[2]) } else { plane(0) }
+    }
+
+    /// The columns and rows of the four texels from one on, unless one of them lies on another face.
+    fn pairs(&self, first: [i64; 3], size: [u32; 3], sampler: &Sampler) -> Option<[[usize; 2]; 2]> {
+        let mut pairs = [[0; 2]; 2];
+        for (axis, pair) in pairs.iter_mut().enumerate() {
+            let (low, count) = (first[axis], i64::from(size[axis]));
+            *pair = if low >= 0 && low + 1 < count {
+                [low as usize, low as usize + 1]
+            } else if self.shape == Shape::Cube {
+                return None;
+            } else {
+                [low, low + 1].map(|x| sampler.address[axis].wrapped(x, count) as usize)
+            };
+        }
+        Some(pairs)
     }
 
     /// The four texels that a linear filter reads at level 0, in WGSL's order.
@@ -437,17 +484,7 @@ impl Texture {
         let texel = if self.shape == Shape::Cube {
             self.cube_texel(at[0], at[1], layer, level as u32)
         } else {
-            let mut wrapped = [0; 3];
-            for i in 0..3 {
-                wrapped[i] = match sampler.address[i] {
-                    Address::Clamp => at[i].clamp(0, size[i] - 1),
-                    Address::Repeat => at[i].rem_euclid(size[i]),
-                    Address::Mirror => {
-                        let place = at[i].rem_euclid(2 * size[i]);
-                        place.min(2 * size[i] - 1 - place)
-                    }
-                };
-            }
+            let wrapped = [0, 1, 2].map(|i| sampler.address[i].wrapped(at[i], size[i]));
             self.fetch(wrapped, layer, level as u32)
         };
         texel.map(|x| F::number(f64::from(x)))

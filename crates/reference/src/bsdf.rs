@@ -7,7 +7,7 @@ use halfvector_brdf::anisotropic::{d_ggx_anisotropic, v_smith_ggx_anisotropic};
 use halfvector_brdf::coupling::{coupling_colored, coupling_compensated, coupling_light, coupling_single};
 use halfvector_brdf::frame::{Frame, Half, frame_from_normal, half_from_light};
 use halfvector_brdf::fresnel::f0_from_ior;
-use halfvector_brdf::ggx::alpha_from_perceptual_roughness;
+use halfvector_brdf::ggx::{alpha_from_perceptual_roughness, d_ggx};
 use halfvector_brdf::lobe_anisotropic::{anisotropic_alphas_gltf, anisotropic_tangent};
 use halfvector_brdf::lobe_coat::{Coat, coat_base, coat_eval};
 use halfvector_brdf::lobe_multiscatter::{Multiscatter, multiscatter_eval, multiscatter_from_dfg};
@@ -25,6 +25,7 @@ use halfvector_brdf::lobe_transmission::{
 };
 use halfvector_brdf::math::{finite_or_zero, normalize_or};
 use halfvector_brdf::metallic_roughness::{diffuse_color, f0_from_metallic};
+use halfvector_brdf::sampling_bounded::area_ggx_bounded;
 use halfvector_brdf::vector::{add, cross, dot, mul, scale};
 
 use crate::material::Surface;
@@ -32,6 +33,8 @@ use crate::model::{Coupling, Model};
 
 /// The smallest alpha: a mirror to 15 digits.
 const ALPHA_FLOOR: f64 = 1e-8;
+/// The least n.v that the samplers take.
+const N_DOT_V_LEAST: f64 = 1e-6;
 /// The least share of the samples that a lobe gets which is there at all.
 const SHARE_FLOOR: f64 = 0.05;
 
@@ -58,7 +61,8 @@ impl Basis {
     /// With a unit tangent across the normal that is given.
     fn along(normal: [f64; 3], tangent: [f64; 3], view_dir: [f64; 3]) -> Basis {
         let bitangent = cross(normal, tangent);
-        let (u, v, w) = (dot(tangent, view_dir), dot(bitangent, view_dir), dot(normal, view_dir).max(1e-6));
+        let (u, v) = (dot(tangent, view_dir), dot(bitangent, view_dir));
+        let w = dot(normal, view_dir).max(N_DOT_V_LEAST);
         let length = (u * u + v * v + w * w).sqrt();
         Basis { frame: frame_from_normal(normal, view_dir), tangent, bitangent, view: [u, v, w].map(|x| x / length) }
     }
@@ -95,6 +99,9 @@ pub(crate) struct Bsdf<'m> {
     f90: [f64; 3],
     /// Widths along the basis' tangent and across it; the same where the surface is not brushed.
     alphas: [f64; 2],
+    /// What half of D is divided by for the specular lobe's density; 0 where that is not by D: a brushed surface, or one seen
+    /// from behind its normal.
+    specular_area: f64,
     /// The roughness of the specular lobe's albedo.
     specular_roughness: f64,
     film: Option<ThinFilm<f64>>,
@@ -118,6 +125,7 @@ pub(crate) struct Bsdf<'m> {
 impl<'m> Bsdf<'m> {
     /// `tangent` is the mesh's, with its handedness; only a brushed surface looks at it. `sheet`: transmission is that of a thin
     /// wall.
+    #[inline(always)]
     pub(crate) fn new(
         model: &'m Model,
         surface: &Surface,
@@ -199,6 +207,7 @@ impl<'m> Bsdf<'m> {
             f0,
             f90,
             alphas,
+            specular_area: 0.0,
             specular_roughness,
             film,
             compensation,
@@ -231,6 +240,9 @@ impl<'m> Bsdf<'m> {
             made.sheen = Some(sheen);
         }
         made.emission = mul(surface.emission, scale(made.under_coat, made.under_sheen));
+        if has_specular && alphas[0] == alphas[1] && dot(surface.normal, view_dir) >= N_DOT_V_LEAST {
+            made.specular_area = area_ggx_bounded(base.view, alphas[0], alphas[1]);
+        }
         made.share(has_specular);
         made
     }
@@ -269,11 +281,24 @@ impl<'m> Bsdf<'m> {
 
     /// BSDF times |n.l| of all lobes, [1/sr].
     pub(crate) fn eval(&self, l: [f64; 3]) -> [f64; 3] {
+        self.eval_half(l, &half_from_light(self.base.frame, l))
+    }
+
+    /// The same, and the density at which [`Self::sample`] draws the direction [1/sr]; 0 for no direction.
+    pub(crate) fn eval_with_density(&self, l: [f64; 3]) -> ([f64; 3], f64) {
+        let n_dot_l = dot(self.base.frame.normal, l);
+        if n_dot_l <= 0.0 && self.transmission.is_none() && self.coat.is_none() {
+            return ([0.0; 3], 0.0);
+        }
+        let half = half_from_light(self.base.frame, l);
+        (self.eval_half(l, &half), self.density(l, n_dot_l, &half))
+    }
+
+    fn eval_half(&self, l: [f64; 3], half: &Half<f64>) -> [f64; 3] {
         let frame = self.base.frame;
-        let half = half_from_light(frame, l);
         let mut base = [0.0; 3];
         if half.n_dot_l > 0.0 {
-            base = add(self.eval_diffuse(&half), self.eval_specular(&half, l));
+            base = add(self.eval_diffuse(half), self.eval_specular(half, l));
             if let Some(lobe) = self.multiscatter {
                 let dfg = self.model.dfg(half.n_dot_l, self.specular_roughness);
                 base = add(base, multiscatter_eval(frame, l, lobe, dfg));
@@ -368,24 +393,28 @@ impl<'m> Bsdf<'m> {
         self.coat.map_or(1.0, |coat| coat.alpha)
     }
 
-    /// The density at which [`Self::sample`] draws a direction [1/sr]; 0 for no direction.
-    pub(crate) fn density(&self, l: [f64; 3]) -> f64 {
-        let local = self.base.local(l);
+    fn density(&self, l: [f64; 3], n_dot_l: f64, half: &Half<f64>) -> f64 {
+        let (above, view) = (n_dot_l > 0.0, self.base.view);
         let mut sum = 0.0;
         for (lobe, share) in self.shares {
             if share == 0.0 {
                 continue;
             }
-            let in_coat = if lobe == Lobe::Coat { self.coat_basis.local(l) } else { local };
             let density = match (lobe, self.transmission) {
-                (Lobe::Transmission, Some(lobe)) if local[2] < 0.0 && self.is_sheet => {
-                    transmission_thin_pdf(self.base.view, local, lobe.alpha)
+                (Lobe::Specular, _) if above && self.specular_area > 0.0 => {
+                    0.5 * d_ggx(half.n_dot_h, half.sin2_theta_h, self.alphas[0]) / self.specular_area
                 }
-                (Lobe::Transmission, Some(lobe)) if local[2] < 0.0 => transmission_pdf(self.base.view, local, lobe),
-                (Lobe::Diffuse, _) if local[2] > 0.0 => diffuse_pdf(self.base.view, local),
-                (Lobe::Specular, _) if local[2] > 0.0 => anisotropic_pdf(self.base.view, local, self.alphas),
-                (Lobe::Coat, _) if in_coat[2] > 0.0 => specular_pdf(self.coat_basis.view, in_coat, self.coat_alpha()),
-                (Lobe::Sheen, _) if local[2] > 0.0 => sheen_pdf(self.base.view, local),
+                (Lobe::Specular, _) if above => anisotropic_pdf(view, self.base.local(l), self.alphas),
+                (Lobe::Diffuse, _) if above => diffuse_pdf(view, self.base.local(l)),
+                (Lobe::Sheen, _) if above => sheen_pdf(view, self.base.local(l)),
+                (Lobe::Transmission, Some(lobe)) if n_dot_l < 0.0 && self.is_sheet => {
+                    transmission_thin_pdf(view, self.base.local(l), lobe.alpha)
+                }
+                (Lobe::Transmission, Some(lobe)) if n_dot_l < 0.0 => transmission_pdf(view, self.base.local(l), lobe),
+                (Lobe::Coat, _) => {
+                    let local = self.coat_basis.local(l);
+                    if local[2] > 0.0 { specular_pdf(self.coat_basis.view, local, self.coat_alpha()) } else { 0.0 }
+                }
                 _ => 0.0,
             };
             sum += share * density;
@@ -466,16 +495,18 @@ mod tests {
                 for i in 0..n {
                     let mut random = Random::new(3, u64::from(i), case as u64);
                     let l = bsdf.sample(random.number(), random.pair());
-                    let density = bsdf.density(l);
-                    let x = if density > 0.0 { bsdf.eval(l)[1] / density } else { 0.0 };
+                    let (reflected, density) = bsdf.eval_with_density(l);
+                    assert!(reflected == bsdf.eval(l));
+                    let x = if density > 0.0 { reflected[1] / density } else { 0.0 };
                     by_lobes = [by_lobes[0] + x, by_lobes[1] + x * x];
                     let [u, v] = random.pair();
                     let (z, phi) = (1.0 - 2.0 * u, 2.0 * std::f64::consts::PI * v);
                     let s = (1.0 - z * z).sqrt();
                     let l = [s * phi.cos(), s * phi.sin(), z];
-                    let x = bsdf.eval(l)[1] * 4.0 * std::f64::consts::PI;
+                    let (reflected, density) = bsdf.eval_with_density(l);
+                    let x = reflected[1] * 4.0 * std::f64::consts::PI;
                     evenly = [evenly[0] + x, evenly[1] + x * x];
-                    densities += bsdf.density(l) * 4.0 * std::f64::consts::PI / f64::from(n);
+                    densities += density * 4.0 * std::f64::consts::PI / f64::from(n);
                 }
                 let mean = |[sum, square]: [f64; 2]| {
                     let mean = sum / f64::from(n);

@@ -3,8 +3,6 @@
 use glam::DVec3;
 use halfvector_scene::Camera;
 
-use crate::geometry::Ray;
-
 /// A camera and the size of its picture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pinhole {
@@ -38,10 +36,23 @@ impl Pinhole {
         }
     }
 
-    /// The ray through a point of the picture in pixels; (0, 0) is its top left corner.
-    pub(crate) fn ray(&self, x: f64, y: f64) -> Ray {
+    /// Where all rays start.
+    pub(crate) fn position(&self) -> DVec3 {
+        self.position
+    }
+
+    /// The unit direction through a point of the picture in pixels; (0, 0) is its top left corner.
+    #[inline(always)]
+    pub(crate) fn dir(&self, x: f64, y: f64) -> [f64; 3] {
         let (x, y) = (2.0 * x / self.width - 1.0, 1.0 - 2.0 * y / self.height);
-        Ray { origin: self.position, dir: (self.forward + x * self.right + y * self.up).normalize() }
+        let along = |forward: f64, right: f64, up: f64| forward + x * right + y * up;
+        let dir = [
+            along(self.forward.x, self.right.x, self.up.x),
+            along(self.forward.y, self.right.y, self.up.y),
+            along(self.forward.z, self.right.z, self.up.z),
+        ];
+        let length = (dir[0] * dir[0] + dir[1] * dir[1] + dir[2] * dir[2]).sqrt();
+        dir.map(|x| x * (1.0 / length))
     }
 
     /// The angle of a pixel in the middle of the picture [rad].

@@ -4,6 +4,7 @@
 //! rounding hides none. Triangles and spheres are intersected in f64.
 
 use std::borrow::Cow;
+use std::f64::consts::{FRAC_1_PI, TAU};
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Vec3A};
 use halfvector_scene::{Mesh, Object};
@@ -11,6 +12,10 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use obvhs::ray::RayHit;
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::directions::{BLOCK, Directions};
+use crate::elementary::{atan2, choose};
 
 /// A half line.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +33,9 @@ pub(crate) struct Hit {
     /// Index of a triangle, or of a sphere after all triangles.
     pub(crate) primitive: u32,
 }
+
+/// The shortest way through a sphere's inside, in its own space.
+const SPHERE_NEAREST: f64 = 1e-9;
 
 /// No primitive: rays that start in empty space.
 pub(crate) const NOWHERE: u32 = u32::MAX;
@@ -78,6 +86,14 @@ pub(crate) struct Geometry<'a> {
     hierarchy: Bvh2,
     /// The shortest way that counts.
     nearest: f64,
+}
+
+/// What is asked of a point beside its position and normals.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Detail {
+    /// Texture coordinates, and the position in object space.
+    pub(crate) places: bool,
+    pub(crate) tangents: bool,
 }
 
 /// What is known of a point of a surface.
@@ -172,22 +188,23 @@ impl<'a> Geometry<'a> {
 
     /// The first surface that a ray meets, but the one that it starts on.
     pub(crate) fn first(&self, ray: &Ray, from: u32) -> Option<Hit> {
-        let mut best = self.spheres_first(ray, from);
+        let mut best = self.spheres_first(ray, from).unwrap_or(Hit { t: f64::INFINITY, primitive: NOWHERE });
         if !self.triangles.is_empty() {
-            let mut t_best = best.map_or(f64::INFINITY, |hit| hit.t);
-            let quick = quick_ray(ray, t_best);
-            self.hierarchy.ray_traverse(quick, &mut RayHit::none(), |_, index| {
-                if let Some(hit) = self.meets(ray, index, from)
-                    && hit.t < t_best
-                {
-                    t_best = hit.t;
-                    best = Some(hit);
-                    return above(hit.t);
-                }
-                f32::INFINITY
-            });
+            self.triangles_first(ray, from, &mut best);
         }
-        best
+        best.t.is_finite().then_some(best)
+    }
+
+    /// Puts a triangle that is nearer in the place of a hit.
+    fn triangles_first(&self, ray: &Ray, from: u32, best: &mut Hit) {
+        let quick = quick_ray(ray, best.t);
+        self.hierarchy.ray_traverse(quick, &mut RayHit::none(), |_, index| match self.meets(ray, index, from) {
+            Some(hit) if hit.t < best.t => {
+                *best = hit;
+                above(hit.t)
+            }
+            _ => f32::INFINITY,
+        });
     }
 
     /// Whether something stands in the way of a ray before a distance.
@@ -244,51 +261,54 @@ impl<'a> Geometry<'a> {
         let mut best: Option<Hit> = None;
         for (index, sphere) in self.spheres.iter().enumerate() {
             let primitive = (self.triangles.len() + index) as u32;
-            let origin = sphere.object_from_world.transform_point3(ray.origin);
-            let dir = sphere.object_from_world.transform_vector3(ray.dir);
-            let (a, b, c) = (dir.length_squared(), origin.dot(dir), origin.length_squared() - 1.0);
-            let discriminant = b * b - a * c;
-            if discriminant <= 0.0 {
+            if primitive == from && sphere.culled {
                 continue;
             }
-            let root = discriminant.sqrt();
-            let (enter, leave) = if primitive == from {
+            let origin = sphere.object_from_world.transform_point3(ray.origin);
+            let dir = sphere.object_from_world.transform_vector3(ray.dir);
+            let t = if primitive == from {
                 // On it: the other meeting is the far side, if the ray goes inwards at all.
-                (f64::NAN, -2.0 * b / a)
+                let leave = -2.0 * origin.dot(dir) / dir.length_squared();
+                choose(leave > SPHERE_NEAREST, leave, f64::INFINITY)
             } else {
-                let far = if b > 0.0 { -b - root } else { -b + root };
-                let (one, other) = (far / a, c / far);
-                (one.min(other), one.max(other))
+                sphere.meets(origin.to_array(), dir.to_array(), self.nearest)
             };
-            let t = if enter > self.nearest {
-                enter
-            } else if !sphere.culled && leave > 1e-9 {
-                leave
-            } else {
-                continue;
-            };
-            if best.is_none_or(|hit| t < hit.t) {
+            if t < best.map_or(f64::INFINITY, |hit| hit.t) {
                 best = Some(Hit { t, primitive });
             }
         }
         best
     }
 
-    /// What is known of the point that a ray has met. `precise` asks for texture coordinates and tangents too.
-    pub(crate) fn point(&self, ray: &Ray, hit: &Hit, precise: bool) -> Point {
-        self.point_at(ray.origin + hit.t * ray.dir, -ray.dir, hit, precise)
-    }
-
-    /// The attributes at a point near a hit in the plane of its face, as they go on beyond the face.
-    pub(crate) fn point_at(&self, position: DVec3, view_dir: DVec3, hit: &Hit, precise: bool) -> Point {
-        let index = hit.primitive as usize;
-        match self.triangles.get(index) {
-            Some(triangle) => self.point_of_triangle(triangle, position, view_dir, precise),
-            None => self.point_of_sphere(&self.spheres[index - self.triangles.len()], position, view_dir, precise),
+    /// The first surface that each ray from one point in empty space meets, where its distance is finite.
+    pub(crate) fn first_from(&self, origin: DVec3, dirs: &Directions, hits: &mut Vec<Hit>) {
+        hits.clear();
+        hits.resize(dirs.len(), Hit { t: f64::INFINITY, primitive: NOWHERE });
+        Arch::new().dispatch(MeetSpheres { geometry: self, origin, dirs, hits });
+        if !self.triangles.is_empty() {
+            for (index, hit) in hits.iter_mut().enumerate() {
+                let ray = Ray { origin, dir: DVec3::from(dirs.at(index)) };
+                self.triangles_first(&ray, NOWHERE, hit);
+            }
         }
     }
 
-    fn point_of_triangle(&self, triangle: &Triangle, position: DVec3, view_dir: DVec3, precise: bool) -> Point {
+    /// What is known of the point that a ray has met. Of a sphere all but the
+    /// texture coordinates, which [`Self::wrap`] makes for many points at once.
+    pub(crate) fn point(&self, ray: &Ray, hit: &Hit, detail: Detail) -> Point {
+        self.point_at(ray.origin + hit.t * ray.dir, -ray.dir, hit, detail)
+    }
+
+    /// The attributes at a point near a hit in the plane of its face, as they go on beyond the face.
+    pub(crate) fn point_at(&self, position: DVec3, view_dir: DVec3, hit: &Hit, detail: Detail) -> Point {
+        let index = hit.primitive as usize;
+        match self.triangles.get(index) {
+            Some(triangle) => self.point_of_triangle(triangle, position, view_dir, detail),
+            None => self.point_of_sphere(&self.spheres[index - self.triangles.len()], position, view_dir, detail),
+        }
+    }
+
+    fn point_of_triangle(&self, triangle: &Triangle, position: DVec3, view_dir: DVec3, detail: Detail) -> Point {
         let body = &self.bodies[triangle.body as usize];
         let transform = &self.transforms[triangle.body as usize];
         let Some(mesh) = &body.mesh else { return Point::default() };
@@ -320,12 +340,14 @@ impl<'a> Geometry<'a> {
             view_dir,
             ..Point::default()
         };
-        if precise {
+        if detail.places {
             let pair = |all: &[[f32; 2]]| -> DVec2 {
                 vertices.iter().zip(weights).map(|(i, w)| w * DVec2::from(all[*i].map(f64::from))).sum()
             };
             point.object_position = vector(&mesh.positions);
             (point.uv0, point.uv1) = (pair(&mesh.uv0), pair(&mesh.uv1));
+        }
+        if detail.tangents {
             let tangent: DVec3 = vertices
                 .iter()
                 .zip(weights)
@@ -340,25 +362,111 @@ impl<'a> Geometry<'a> {
         point
     }
 
-    /// The built-in sphere: its picture's middle is at +Z, its seam at -Z, its top edge the pole at +Y.
-    fn point_of_sphere(&self, sphere: &Sphere, position: DVec3, view_dir: DVec3, precise: bool) -> Point {
+    /// Texture coordinates of those points that lie on spheres: the picture's middle is at +Z, its seam at -Z, its top edge
+    /// the pole at +Y.
+    pub(crate) fn wrap(&self, points: &mut [Point]) {
+        if !self.spheres.is_empty() {
+            Arch::new().dispatch(Wrap { geometry: self, points });
+        }
+    }
+
+    fn point_of_sphere(&self, sphere: &Sphere, position: DVec3, view_dir: DVec3, detail: Detail) -> Point {
         let transform = &self.transforms[sphere.body as usize];
         let local = sphere.object_from_world.transform_point3(position).normalize_or(DVec3::Y);
         let normal = (transform.normal_from_object * local).normalize_or(local);
         let body = sphere.body;
         let mut point = Point { body, position, geometric_normal: normal, normal, view_dir, ..Point::default() };
-        if precise {
-            use std::f64::consts::PI;
-            let u = local.x.atan2(local.z) / (2.0 * PI) + 0.5;
-            let v = local.x.hypot(local.z).atan2(local.y) / PI;
+        if detail.places {
             point.object_position = local;
-            point.uv0 = DVec2::new(u, v);
-            point.uv1 = point.uv0;
+        }
+        if detail.tangents {
             let tangent = DVec3::new(local.z, 0.0, -local.x).normalize_or(DVec3::X);
             let tangent = transform.world_from_object.transform_vector3(tangent).normalize_or(DVec3::X);
             point.tangent = tangent.extend(transform.handedness);
         }
         point
+    }
+}
+
+impl Sphere {
+    /// How far a ray in object space goes until it meets the unit sphere; infinite where it does not. It starts elsewhere.
+    #[inline(always)]
+    fn meets(&self, origin: [f64; 3], dir: [f64; 3], nearest: f64) -> f64 {
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let (a, b, c) = (dot(dir, dir), dot(origin, dir), dot(origin, origin) - 1.0);
+        let discriminant = b * b - a * c;
+        let root = discriminant.sqrt();
+        let far = choose(b > 0.0, -b - root, root - b);
+        let (one, other) = (far / a, c / far);
+        let (enter, leave) = (choose(one < other, one, other), choose(one < other, other, one));
+        let within = choose((leave > SPHERE_NEAREST) & !self.culled, leave, f64::INFINITY);
+        let t = choose(enter > nearest, enter, within);
+        choose(discriminant > 0.0, t, f64::INFINITY)
+    }
+}
+
+/// The work of [`Geometry::first_from`] on spheres.
+struct MeetSpheres<'a> {
+    geometry: &'a Geometry<'a>,
+    origin: DVec3,
+    dirs: &'a Directions,
+    hits: &'a mut [Hit],
+}
+
+impl WithSimd for MeetSpheres<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let MeetSpheres { geometry, origin, dirs, hits } = self;
+        for (index, sphere) in geometry.spheres.iter().enumerate() {
+            let primitive = (geometry.triangles.len() + index) as u32;
+            let start = sphere.object_from_world.transform_point3(origin).to_array();
+            let columns = [0, 1, 2].map(|i| sphere.object_from_world.col(i).truncate().to_array());
+            for (number, hits) in hits.chunks_mut(BLOCK).enumerate() {
+                let ([x, y, z], mut t) = (dirs.block(number * BLOCK), [0.0; BLOCK]);
+                for i in 0..BLOCK {
+                    let along = |k: usize| columns[0][k] * x[i] + columns[1][k] * y[i] + columns[2][k] * z[i];
+                    t[i] = sphere.meets(start, [along(0), along(1), along(2)], geometry.nearest);
+                }
+                for (hit, t) in hits.iter_mut().zip(t) {
+                    if t < hit.t {
+                        *hit = Hit { t, primitive };
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The work of [`Geometry::wrap`].
+struct Wrap<'a> {
+    geometry: &'a Geometry<'a>,
+    points: &'a mut [Point],
+}
+
+impl WithSimd for Wrap<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for points in self.points.chunks_mut(BLOCK) {
+            let (mut x, mut y, mut z) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+            for (i, point) in points.iter().enumerate() {
+                [x[i], y[i], z[i]] = point.object_position.to_array();
+            }
+            let (mut u, mut v) = ([0.0; BLOCK], [0.0; BLOCK]);
+            for i in 0..BLOCK {
+                u[i] = atan2(x[i], z[i]) * (1.0 / TAU) + 0.5;
+                v[i] = atan2((x[i] * x[i] + z[i] * z[i]).sqrt(), y[i]) * FRAC_1_PI;
+            }
+            for (i, point) in points.iter_mut().enumerate() {
+                let body = point.body as usize;
+                if self.geometry.bodies[body].mesh.is_none() {
+                    (point.uv0, point.uv1) = (DVec2::new(u[i], v[i]), DVec2::new(u[i], v[i]));
+                }
+            }
+        }
     }
 }
 

@@ -11,6 +11,8 @@
 mod albedo;
 mod bsdf;
 mod camera;
+mod directions;
+mod elementary;
 mod environment;
 mod error;
 mod film;

@@ -15,7 +15,7 @@ use halfvector_interp::{
 use halfvector_scene::{Scene, SceneMaterial, View};
 
 use crate::ReferenceError;
-use crate::geometry::Point;
+use crate::geometry::{Detail, Point};
 use crate::texture::{Textures, sampler};
 
 /// The surface at one point, as the surface node gives it.
@@ -192,8 +192,8 @@ pub(crate) struct Material {
     samplers: Vec<((u32, u32), halfvector_interp::Sampler)>,
     /// Whether it takes derivatives of its own, beside those that choose a texture's level.
     pub(crate) derives: bool,
-    /// Whether it asks for texture coordinates, tangents or places in object space, or is brushed along its tangents.
-    pub(crate) precise: bool,
+    /// What it asks of points; tangents where it is brushed along them, too.
+    pub(crate) detail: Detail,
     /// What opacity does, and whether both sides are seen.
     pub(crate) settings: SurfaceSettings,
 }
@@ -257,14 +257,14 @@ impl Material {
             samplers: Vec::new(),
             // The text of comments may say so too: that costs time, no more.
             derives: ["dpdx", "dpdy", "fwidth"].iter().any(|name| shader.wgsl.contains(name)),
-            precise: false,
+            detail: Detail::default(),
             settings: document.surface,
             program,
         };
-        let asked = |context: &(Context, usize)| {
-            matches!(context.0, Context::Uv0 | Context::Uv1 | Context::ObjectPosition | Context::WorldTangent)
-        };
-        made.precise = made.inputs.iter().any(asked);
+        for (context, _) in &made.inputs {
+            made.detail.places |= matches!(context, Context::Uv0 | Context::Uv1 | Context::ObjectPosition);
+            made.detail.tangents |= *context == Context::WorldTangent;
+        }
         for binding in &shader.reflection.bindings {
             let at = (binding.group, binding.binding);
             match &binding.resource {
@@ -328,7 +328,7 @@ impl Material {
             matches!(column, Some(OutputColumn::Float(numbers)) if numbers.iter().any(|x| *x != 0.0))
         };
         let (brushed, moved) = (is_set("anisotropy"), is_set("height"));
-        self.precise |= brushed;
+        self.detail.tangents |= brushed;
         Ok(moved)
     }
 

@@ -2,7 +2,7 @@
 
 /// The numbers of one sample of one pixel, in order: SplitMix64 of Steele, Lea, Flood 2014, "Fast Splittable Pseudorandom
 /// Number Generators", started at a hash of seed, pixel and sample.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Random {
     state: u64,
 }
@@ -11,6 +11,7 @@ pub(crate) struct Random {
 const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// SplitMix64's finaliser, Stafford's variant 13.
+#[inline(always)]
 fn mixed(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
@@ -18,6 +19,7 @@ fn mixed(mut z: u64) -> u64 {
 }
 
 impl Random {
+    #[inline(always)]
     pub(crate) fn new(seed: u64, pixel: u64, sample: u64) -> Random {
         // Hashed one after the other: counters that differ by one bit start far apart.
         let key = mixed(mixed(mixed(seed ^ STEP).wrapping_add(pixel)).wrapping_add(sample ^ STEP));
@@ -25,12 +27,14 @@ impl Random {
     }
 
     /// Even in [0, 1).
+    #[inline(always)]
     pub(crate) fn number(&mut self) -> f64 {
         self.state = self.state.wrapping_add(STEP);
         (mixed(self.state) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Even over the unit square.
+    #[inline(always)]
     pub(crate) fn pair(&mut self) -> [f64; 2] {
         [self.number(), self.number()]
     }

@@ -7,7 +7,6 @@
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use glam::DVec3;
 use halfvector_graph::document::AlphaMode;
 use halfvector_ibl::LoadedEnvironment;
 use halfvector_scene::{Background, BuiltinMesh, Mesh, Scene};
@@ -17,7 +16,7 @@ use crate::ReferenceError;
 use crate::camera::Pinhole;
 use crate::environment::{Environment, EnvironmentFilter};
 use crate::film::{Picture, Pixel};
-use crate::geometry::{Body, Geometry};
+use crate::geometry::{Body, Geometry, Hit};
 use crate::light::Lights;
 use crate::material::Material;
 use crate::model::{Conductor, Model};
@@ -207,13 +206,9 @@ impl<'a> Reference<'a> {
         Picture::new(self.options.width, self.options.height, self.samples, &self.film)
     }
 
-    /// What is seen where nothing is: radiance and alpha.
-    pub(crate) fn behind(&self, dir: DVec3) -> ([f64; 3], f64) {
-        match (self.background, &self.environment) {
-            (Background::Environment, Some(environment)) => (environment.radiance(dir.to_array()), 1.0),
-            (Background::Color(color), _) => (color.map(f64::from), 1.0),
-            (Background::Environment | Background::None, _) => ([0.0; 3], 0.0),
-        }
+    /// Index of the material that a hit is on.
+    pub(crate) fn material_of(&self, hit: &Hit) -> usize {
+        self.geometry.bodies[self.geometry.body(hit)].material
     }
 }
 

@@ -1,25 +1,30 @@
-//! A wave of paths: all samples of a tile that are on their way, traced and shaded one step at a time.
+//! A wave of paths: all samples of a tile that are on their way, traced and shaded one step at a time. What is alike for all
+//! of them is computed in blocks: the camera's rays, the directions drawn by the environment's light, and what they see of it.
+
+mod awaited;
+mod path;
+mod veil;
 
 use glam::DVec3;
-use halfvector_brdf::vector::{add, mul, scale};
-use halfvector_graph::document::AlphaMode;
+use halfvector_scene::Background;
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::ReferenceError;
-use crate::bsdf::{Bsdf, across};
+use crate::camera::Pinhole;
+use crate::directions::{BLOCK, Directions};
 use crate::film::Pixel;
-use crate::geometry::{Hit, NOWHERE, Point, Ray};
+use crate::geometry::{Hit, Point, Ray};
 use crate::material::{Evaluator, Material, Surface};
 use crate::random::Random;
 use crate::render::Reference;
+use awaited::Awaited;
+use path::{Drawn, Path};
+use veil::Veil;
 
-/// Paths in a wave.
-const PATHS: usize = 4096;
+/// Samples in a wave.
+const SAMPLES: usize = 2048;
 /// Surfaces that a ray may pass through because they are cut out or blended, before it is taken as ended.
 const MOST_PASSED: u32 = 256;
-/// How far apart derivatives are taken, in pixels: what is finer than a pixel is left to the samples.
-const DERIVATIVE_STEP: f64 = 1.0 / 16.0;
-/// Bounces after which dark paths begin to end by chance.
-const SURE_BOUNCES: u32 = 3;
 
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug)]
@@ -30,42 +35,42 @@ pub(crate) struct Tile {
     pub(crate) height: u32,
 }
 
-/// One sample on its way.
-struct Path {
-    random: Random,
-    ray: Ray,
-    /// What the ray starts on.
-    from: u32,
-    throughput: [f64; 3],
-    radiance: [f64; 3],
-    alpha: f64,
-    /// What the surface that the ray comes from lets in of the environment.
-    occlusion: f64,
-    /// Density at which the ray was drawn; none for the camera's.
-    density: Option<f64>,
-    /// Surfaces that it was reflected by.
-    bounces: u32,
-    passed: u32,
-    /// Length of the way so far.
-    length: f64,
-    /// The camera's rays a step to the right and down.
-    neighbours: [DVec3; 2],
-}
-
 /// The memory of one thread.
 pub(crate) struct Wave<'r> {
     reference: &'r Reference<'r>,
+    arch: Arch,
     evaluators: Vec<Option<Evaluator<'r>>>,
+    /// What has been seen by each sample: radiance and alpha.
+    seen: Vec<[f64; 4]>,
+    starts: Starts,
+    /// Samples that have met something.
     paths: Vec<Path>,
     /// Numbers of the paths that have a ray to trace.
     active: Vec<u32>,
-    next: Vec<u32>,
-    /// Hits of this step by material.
+    /// Hits of this step by material: the path's number, and what it has met.
     hits: Vec<Vec<(u32, Hit)>>,
     points: [Vec<Point>; 3],
     surfaces: Vec<Surface>,
     /// Surfaces on the way to the light.
     behind: Vec<Surface>,
+    /// Two numbers for each hit, and the direction that they draw by the environment's light.
+    numbers: [Vec<f64>; 2],
+    drawn: Directions,
+    densities: Vec<f64>,
+    awaited: Awaited,
+}
+
+/// Where the samples of a wave begin.
+#[derive(Default)]
+struct Starts {
+    /// Number of the pixel in the picture, its corner, and the sample's number.
+    pixels: Vec<(u64, [f64; 2], u64)>,
+    randoms: Vec<Random>,
+    /// Places in the picture.
+    places: Vec<[f64; 2]>,
+    dirs: Directions,
+    /// What each ray meets first, if its distance is finite.
+    met: Vec<Hit>,
 }
 
 impl<'r> Wave<'r> {
@@ -78,14 +83,20 @@ impl<'r> Wave<'r> {
             .collect::<Result<_, _>>()?;
         Ok(Wave {
             reference,
+            arch: Arch::new(),
             evaluators,
+            seen: Vec::new(),
+            starts: Starts::default(),
             paths: Vec::new(),
             active: Vec::new(),
-            next: Vec::new(),
             hits: reference.materials.iter().map(|_| Vec::new()).collect(),
             points: Default::default(),
             surfaces: Vec::new(),
             behind: Vec::new(),
+            numbers: Default::default(),
+            drawn: Directions::default(),
+            densities: Vec::new(),
+            awaited: Awaited::default(),
         })
     }
 
@@ -97,29 +108,22 @@ impl<'r> Wave<'r> {
         count: u64,
         pixels: &mut [Pixel],
     ) -> Result<(), ReferenceError> {
-        let at_once = (PATHS / pixels.len().max(1)).max(1) as u64;
+        let at_once = (SAMPLES / pixels.len().max(1)).max(1) as u64;
         let mut start = first;
         while start < first + count {
             let end = (start + at_once).min(first + count);
-            self.paths.clear();
-            for row in 0..tile.height {
-                for column in 0..tile.width {
-                    for sample in start..end {
-                        let path = self.camera_path(tile.x + column, tile.y + row, sample);
-                        self.paths.push(path);
-                    }
-                }
+            self.start(tile, start..end);
+            while self.hits.iter().any(|hits| !hits.is_empty()) {
+                self.shade()?;
+                self.trace();
+                self.awaited.arrive(self.reference, &mut self.seen);
             }
-            self.active.clear();
-            self.active.extend(0..self.paths.len() as u32);
-            while !self.active.is_empty() {
-                self.step()?;
-            }
+            self.awaited.arrive(self.reference, &mut self.seen);
             // Each pixel's samples in their order: sums do not depend on how many are taken at once.
-            for (pixel, paths) in pixels.iter_mut().zip(self.paths.chunks((end - start) as usize)) {
-                for path in paths {
-                    let finite = path.radiance.iter().all(|x| x.is_finite());
-                    pixel.add(if finite { path.radiance } else { [0.0; 3] }, path.alpha);
+            for (pixel, seen) in pixels.iter_mut().zip(self.seen.chunks((end - start) as usize)) {
+                for &[r, g, b, alpha] in seen {
+                    let finite = (r + g + b).is_finite();
+                    pixel.add(if finite { [r, g, b] } else { [0.0; 3] }, alpha);
                 }
             }
             start = end;
@@ -127,61 +131,136 @@ impl<'r> Wave<'r> {
         Ok(())
     }
 
-    fn camera_path(&self, x: u32, y: u32, sample: u64) -> Path {
-        let options = &self.reference.options;
-        let pixel = u64::from(y) * u64::from(options.width) + u64::from(x);
-        let mut random = Random::new(options.seed, pixel, sample);
-        let [u, v] = random.pair();
-        let (x, y) = (f64::from(x) + u, f64::from(y) + v);
-        let camera = &self.reference.camera;
-        Path {
-            random,
-            ray: camera.ray(x, y),
-            from: NOWHERE,
-            throughput: [1.0; 3],
-            radiance: [0.0; 3],
-            alpha: 0.0,
-            occlusion: 1.0,
-            density: None,
-            bounces: 0,
-            passed: 0,
-            length: 0.0,
-            neighbours: [camera.ray(x + DERIVATIVE_STEP, y).dir, camera.ray(x, y + DERIVATIVE_STEP).dir],
+    /// Sends off the camera's rays.
+    fn start(&mut self, tile: Tile, samples: std::ops::Range<u64>) {
+        let reference = self.reference;
+        let Starts { pixels, randoms, places, dirs, met } = &mut self.starts;
+        pixels.clear();
+        for y in tile.y..tile.y + tile.height {
+            for x in tile.x..tile.x + tile.width {
+                let pixel = u64::from(y) * u64::from(reference.options.width) + u64::from(x);
+                pixels.extend(samples.clone().map(|sample| (pixel, [f64::from(x), f64::from(y)], sample)));
+            }
+        }
+        self.arch.dispatch(Aim {
+            camera: &reference.camera,
+            seed: reference.options.seed,
+            pixels,
+            randoms,
+            places,
+            dirs,
+        });
+        self.seen.clear();
+        self.seen.resize(pixels.len(), [0.0; 4]);
+        self.paths.clear();
+        let origin = reference.camera.position();
+        reference.geometry.first_from(origin, dirs, met);
+        for (number, hit) in met.iter().enumerate() {
+            let dir = dirs.at(number);
+            if hit.t.is_finite() {
+                let ray = Ray { origin, dir: DVec3::from(dir) };
+                self.hits[reference.material_of(hit)].push((self.paths.len() as u32, *hit));
+                self.paths.push(Path::new(randoms[number], places[number], ray, number as u32));
+            } else {
+                see_behind(reference, &mut self.awaited, &mut self.seen, number as u32, dir, [1.0; 3]);
+            }
         }
     }
 
-    /// Traces all rays and shades what they meet.
-    fn step(&mut self) -> Result<(), ReferenceError> {
+    /// Shades what the rays have met; those that go on are active afterwards.
+    fn shade(&mut self) -> Result<(), ReferenceError> {
         let reference = self.reference;
-        for number in self.active.drain(..) {
-            let path = &mut self.paths[number as usize];
-            match reference.geometry.first(&path.ray, path.from) {
-                Some(hit) => {
-                    self.hits[reference.geometry.bodies[reference.geometry.body(&hit)].material].push((number, hit))
-                }
-                None => path.miss(reference),
-            }
-        }
         for index in 0..self.hits.len() {
+            if self.hits[index].is_empty() {
+                continue;
+            }
             let hits = std::mem::take(&mut self.hits[index]);
             if let (Some(material), Some(evaluator)) = (&reference.materials[index], &mut self.evaluators[index]) {
                 place(reference, material, &self.paths, &hits, &mut self.points);
                 let [points, right, down] = &self.points;
                 let steps = material.derives.then_some([right.as_slice(), down.as_slice()]);
                 evaluator.surfaces(points, steps, &mut self.surfaces)?;
+                self.draw(&hits);
                 let mut veil = Veil { reference, evaluators: &mut self.evaluators, surfaces: &mut self.behind };
-                for (((number, hit), point), surface) in hits.iter().zip(points).zip(&self.surfaces) {
+                for (i, (number, hit)) in hits.iter().enumerate() {
                     let path = &mut self.paths[*number as usize];
-                    if path.shade(&mut veil, material, hit, point, surface)? {
-                        self.next.push(*number);
+                    let drawn = self.densities.get(i).map(|density| Drawn { dir: self.drawn.at(i), density: *density });
+                    let seen = &mut self.seen[path.sample as usize];
+                    let (point, surface) = (&self.points[0][i], &self.surfaces[i]);
+                    if path.shade(&mut veil, seen, &mut self.awaited, material, hit, point, surface, drawn)? {
+                        self.active.push(*number);
                     }
                 }
             }
             self.hits[index] = hits;
             self.hits[index].clear();
         }
-        std::mem::swap(&mut self.active, &mut self.next);
         Ok(())
+    }
+
+    /// Draws a direction for each hit where the environment's light is.
+    fn draw(&mut self, hits: &[(u32, Hit)]) {
+        self.densities.clear();
+        let Some(environment) = self.reference.environment.as_ref().filter(|environment| environment.draws()) else {
+            return;
+        };
+        self.numbers.iter_mut().for_each(Vec::clear);
+        for (number, _) in hits {
+            let [u, v] = self.paths[*number as usize].random.pair();
+            self.numbers[0].push(u);
+            self.numbers[1].push(v);
+        }
+        environment.draw(&self.numbers, &mut self.drawn, &mut self.densities);
+    }
+
+    /// Traces the rays that go on.
+    fn trace(&mut self) {
+        let reference = self.reference;
+        for number in self.active.drain(..) {
+            let path = &self.paths[number as usize];
+            match reference.geometry.first(&path.ray, path.from) {
+                Some(hit) => self.hits[reference.material_of(&hit)].push((number, hit)),
+                None => {
+                    let dir = path.ray.dir.to_array();
+                    match path.density {
+                        None => {
+                            let seen = &mut self.seen;
+                            see_behind(reference, &mut self.awaited, seen, path.sample, dir, path.throughput);
+                        }
+                        Some(density) if reference.environment.is_some() => {
+                            let weight = path.throughput.map(|x| x * path.occlusion);
+                            self.awaited.push(path.sample, dir, weight, density);
+                        }
+                        Some(_) => {}
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A ray of the camera that has met nothing, or only what lets it pass.
+fn see_behind(
+    reference: &Reference<'_>,
+    awaited: &mut Awaited,
+    seen: &mut [[f64; 4]],
+    sample: u32,
+    dir: [f64; 3],
+    throughput: [f64; 3],
+) {
+    let seen = &mut seen[sample as usize];
+    match (reference.background, &reference.environment) {
+        (Background::Environment, Some(_)) => {
+            seen[3] = 1.0;
+            awaited.push(sample, dir, throughput, awaited::CERTAIN);
+        }
+        (Background::Color(color), _) => {
+            for i in 0..3 {
+                seen[i] += throughput[i] * f64::from(color[i]);
+            }
+            seen[3] = 1.0;
+        }
+        (Background::Environment | Background::None, _) => seen[3] = 0.0,
     }
 }
 
@@ -196,8 +275,8 @@ fn place(
     let geometry = &reference.geometry;
     let [middle, right, down] = points;
     middle.clear();
-    middle.extend(hits.iter().map(|(number, hit)| geometry.point(&paths[*number as usize].ray, hit, material.precise)));
-    for (axis, beside) in [right, down].into_iter().enumerate() {
+    middle.extend(hits.iter().map(|(number, hit)| geometry.point(&paths[*number as usize].ray, hit, material.detail)));
+    for (axis, beside) in [&mut *right, &mut *down].into_iter().enumerate() {
         beside.clear();
         if !material.derives {
             continue;
@@ -209,234 +288,50 @@ fn place(
                 None => (path.ray.origin - position).normalize_or(point.view_dir),
                 Some(_) => point.view_dir,
             };
-            geometry.point_at(position, view_dir, hit, material.precise)
+            geometry.point_at(position, view_dir, hit, material.detail)
         }));
     }
-}
-
-impl Path {
-    /// Where the ray a step beside this one meets the plane of the face; after a reflection, a pixel's width away.
-    fn beside(&self, reference: &Reference<'_>, hit: &Hit, point: &Point, axis: usize) -> DVec3 {
-        let normal = point.geometric_normal;
-        if self.density.is_none() && self.passed == 0 {
-            let dir = self.neighbours[axis];
-            let t = normal.dot(point.position - self.ray.origin) / normal.dot(dir);
-            // Beyond the horizon of the plane there is no meeting nearby.
-            if t > 0.0 && t < 2.0 * hit.t {
-                return self.ray.origin + t * dir;
-            }
-        }
-        let width = reference.camera.pixel_angle() * DERIVATIVE_STEP * (self.length + hit.t);
-        point.position + width * DVec3::from(across(normal.to_array())[axis])
-    }
-
-    /// The ray has met nothing.
-    fn miss(&mut self, reference: &Reference<'_>) {
-        let dir = self.ray.dir.to_array();
-        let Some(density) = self.density else {
-            let (radiance, alpha) = reference.behind(self.ray.dir);
-            self.radiance = add(self.radiance, mul(self.throughput, radiance));
-            self.alpha = alpha;
-            return;
-        };
-        if let Some(environment) = &reference.environment {
-            let (radiance, drawn) = environment.light(dir);
-            let light = scale(radiance, self.occlusion * density / (density + drawn));
-            self.radiance = add(self.radiance, mul(self.throughput, light));
-        }
-    }
-
-    /// Adds what the point sends to the viewer; true where the path goes on.
-    fn shade(
-        &mut self,
-        veil: &mut Veil<'_, '_>,
-        material: &Material,
-        hit: &Hit,
-        point: &Point,
-        surface: &Surface,
-    ) -> Result<bool, ReferenceError> {
-        let reference = veil.reference;
-        let passes = match material.settings.alpha_mode {
-            AlphaMode::Opaque => false,
-            AlphaMode::Mask => surface.opacity < f64::from(material.settings.alpha_cutoff),
-            AlphaMode::Blend => self.random.number() >= surface.opacity,
-        };
-        self.length += hit.t;
-        if passes {
-            self.passed += 1;
-            self.ray.origin = point.position;
-            self.from = hit.primitive;
-            return Ok(self.passed < MOST_PASSED);
-        }
-        if self.density.is_none() {
-            self.alpha = 1.0;
-        }
-        let (mut surface, mut geometric_normal) = (*surface, point.geometric_normal);
-        if material.settings.double_sided && geometric_normal.dot(self.ray.dir) > 0.0 {
-            geometric_normal = -geometric_normal;
-            surface.normal = surface.normal.map(|x| -x);
-            surface.coat_normal = surface.coat_normal.map(|x| -x);
-        }
-        let sheet = material.settings.thin_walled;
-        let bsdf = Bsdf::new(&reference.model, &surface, point.view_dir.to_array(), point.tangent.to_array(), sheet);
-        self.radiance = add(self.radiance, mul(self.throughput, bsdf.emission));
-        if !bsdf.reflects() {
-            return Ok(false);
-        }
-        let place = Place { bsdf: &bsdf, position: point.position, geometric_normal, primitive: hit.primitive };
-        self.add_lights(&place, veil)?;
-        self.add_drawn_light(&place, veil, surface.occlusion)?;
-        self.go_on(&place, veil, surface.occlusion)
-    }
-
-    fn add_lights(&mut self, place: &Place<'_>, veil: &mut Veil<'_, '_>) -> Result<(), ReferenceError> {
-        for (light, distance) in veil.reference.lights.at(place.position.to_array()) {
-            let reflected = place.bsdf.eval(light.dir);
-            if reflected == [0.0; 3] {
-                continue;
-            }
-            let seen = veil.sees(place, light.dir, distance)?;
-            let light = scale(light.illuminance, seen);
-            self.radiance = add(self.radiance, mul(self.throughput, mul(reflected, light)));
-        }
-        Ok(())
-    }
-
-    /// The environment drawn where its light is.
-    fn add_drawn_light(
-        &mut self,
-        place: &Place<'_>,
-        veil: &mut Veil<'_, '_>,
-        occlusion: f64,
-    ) -> Result<(), ReferenceError> {
-        let Some(environment) = &veil.reference.environment else { return Ok(()) };
-        let Some((dir, density)) = environment.sample(self.random.pair()) else { return Ok(()) };
-        let reflected = place.bsdf.eval(dir);
-        if reflected == [0.0; 3] {
-            return Ok(());
-        }
-        let seen = veil.sees(place, dir, f64::INFINITY)?;
-        if seen > 0.0 {
-            let weight = seen * occlusion / (density + place.bsdf.density(dir));
-            let light = scale(environment.radiance(dir), weight);
-            self.radiance = add(self.radiance, mul(self.throughput, mul(reflected, light)));
-        }
-        Ok(())
-    }
-
-    /// A direction drawn by the lobes: to the environment, and to other surfaces as often as light may bounce.
-    fn go_on(&mut self, place: &Place<'_>, veil: &mut Veil<'_, '_>, occlusion: f64) -> Result<bool, ReferenceError> {
-        let reference = veil.reference;
-        let choice = self.random.number();
-        let dir = place.bsdf.sample(choice, self.random.pair());
-        let density = place.bsdf.density(dir);
-        if density.is_nan() || density <= 0.0 {
-            return Ok(false);
-        }
-        let reflected = place.bsdf.eval(dir);
-        if reflected == [0.0; 3] {
-            return Ok(false);
-        }
-        self.throughput = mul(self.throughput, scale(reflected, 1.0 / density));
-        (self.density, self.occlusion) = (Some(density), occlusion);
-        self.ray = Ray { origin: place.position, dir: DVec3::from(dir) };
-        self.from = place.primitive;
-        if self.bounces >= reference.options.bounces || !reference.options.shadows || place.is_behind(dir) {
-            if reference.environment.is_some() {
-                let seen = veil.sees(place, dir, f64::INFINITY)?;
-                if seen > 0.0 {
-                    self.throughput = scale(self.throughput, seen);
-                    self.miss(reference);
-                }
-            }
-            return Ok(false);
-        }
-        if DVec3::from(dir).dot(place.geometric_normal) <= 0.0 {
-            return Ok(false);
-        }
-        self.bounces += 1;
-        if self.bounces > SURE_BOUNCES {
-            let [r, g, b] = self.throughput;
-            let chance = r.max(g).max(b).min(0.95);
-            if self.random.number() >= chance {
-                return Ok(false);
-            }
-            self.throughput = self.throughput.map(|x| x / chance);
-        }
-        Ok(true)
+    if material.detail.places {
+        [middle, right, down].into_iter().for_each(|points| geometry.wrap(points));
     }
 }
 
-/// A point that is shaded.
-struct Place<'p> {
-    bsdf: &'p Bsdf<'p>,
-    position: DVec3,
-    geometric_normal: DVec3,
-    primitive: u32,
+/// Makes the random numbers of some samples and, with the first two, their rays.
+struct Aim<'a> {
+    camera: &'a Pinhole,
+    seed: u64,
+    pixels: &'a [(u64, [f64; 2], u64)],
+    randoms: &'a mut Vec<Random>,
+    places: &'a mut Vec<[f64; 2]>,
+    dirs: &'a mut Directions,
 }
 
-impl Place<'_> {
-    /// Whether a direction lies behind the shading normal: into the body.
-    fn is_behind(&self, dir: [f64; 3]) -> bool {
-        DVec3::from(dir).dot(DVec3::from(self.bsdf.normal())) <= 0.0
-    }
-}
+impl WithSimd for Aim<'_> {
+    type Output = ();
 
-/// What stands between a point and its light.
-struct Veil<'w, 'r> {
-    reference: &'r Reference<'r>,
-    evaluators: &'w mut [Option<Evaluator<'r>>],
-    surfaces: &'w mut Vec<Surface>,
-}
-
-impl Veil<'_, '_> {
-    /// The share of the light from a direction that arrives. What enters a body is taken to leave it again on the other
-    /// side.
-    fn sees(&mut self, place: &Place<'_>, dir: [f64; 3], distance: f64) -> Result<f64, ReferenceError> {
-        if !self.reference.options.shadows || place.is_behind(dir) {
-            return Ok(1.0);
-        }
-        let ray = Ray { origin: place.position, dir: DVec3::from(dir) };
-        if ray.dir.dot(place.geometric_normal) <= 0.0 {
-            return Ok(0.0);
-        }
-        if self.reference.is_opaque {
-            let blocked = self.reference.geometry.is_blocked(&ray, place.primitive, distance);
-            return Ok(if blocked { 0.0 } else { 1.0 });
-        }
-        self.passed(ray, place.primitive, distance)
-    }
-
-    /// The same where surfaces are cut out or blended: each one on the way is evaluated.
-    fn passed(&mut self, mut ray: Ray, mut from: u32, mut distance: f64) -> Result<f64, ReferenceError> {
-        let geometry = &self.reference.geometry;
-        let mut share = 1.0;
-        for _ in 0..MOST_PASSED {
-            let Some(hit) = geometry.first(&ray, from).filter(|hit| hit.t < distance) else { return Ok(share) };
-            let index = geometry.bodies[geometry.body(&hit)].material;
-            let (Some(material), Some(evaluator)) = (&self.reference.materials[index], &mut self.evaluators[index])
-            else {
-                return Ok(0.0);
-            };
-            if material.settings.alpha_mode == AlphaMode::Opaque {
-                return Ok(0.0);
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.randoms.clear();
+        self.places.clear();
+        self.dirs.clear();
+        for pixels in self.pixels.chunks(BLOCK) {
+            let mut random = [Random::default(); BLOCK];
+            let (mut number, mut sample) = ([0; BLOCK], [0; BLOCK]);
+            let (mut x, mut y, mut dir) = ([0.0; BLOCK], [0.0; BLOCK], [[0.0; BLOCK]; 3]);
+            for (i, pixel) in pixels.iter().enumerate() {
+                (number[i], [x[i], y[i]], sample[i]) = *pixel;
             }
-            let point = [geometry.point(&ray, &hit, material.precise)];
-            let steps = material.derives.then_some([point.as_slice(), point.as_slice()]);
-            evaluator.surfaces(&point, steps, self.surfaces)?;
-            let opacity = self.surfaces.first().map_or(1.0, |surface| surface.opacity.clamp(0.0, 1.0));
-            share *= match material.settings.alpha_mode {
-                AlphaMode::Mask if opacity < f64::from(material.settings.alpha_cutoff) => 1.0,
-                AlphaMode::Mask | AlphaMode::Opaque => 0.0,
-                AlphaMode::Blend => 1.0 - opacity,
-            };
-            if share == 0.0 {
-                return Ok(0.0);
+            for i in 0..BLOCK {
+                random[i] = Random::new(self.seed, number[i], sample[i]);
+                let [u, v] = random[i].pair();
+                x[i] += u;
+                y[i] += v;
+                [dir[0][i], dir[1][i], dir[2][i]] = self.camera.dir(x[i], y[i]);
             }
-            distance -= hit.t;
-            ray.origin += hit.t * ray.dir;
-            from = hit.primitive;
+            let count = pixels.len();
+            self.randoms.extend_from_slice(&random[..count]);
+            self.places.extend((0..count).map(|i| [x[i], y[i]]));
+            self.dirs.extend(&dir, count);
         }
-        Ok(0.0)
     }
 }
