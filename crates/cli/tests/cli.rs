@@ -361,6 +361,7 @@ fn a_report_is_compared_with_an_older_one() {
     let text = |name: &str| std::fs::read_to_string(folder.path(name)).expect("written");
     assert!(text("out/index.html").contains("<svg") && text("out/mips.csv").starts_with("term,method,"));
     let mut old: serde_json::Value = serde_json::from_str(&text("out/report.json")).expect("JSON");
+    let measured = old.clone();
     // Times of a busy machine: none is compared.
     for row in old["rows"].as_array_mut().expect("rows") {
         row["cost_ns"] = serde_json::Value::Null;
@@ -368,12 +369,42 @@ fn a_report_is_compared_with_an_older_one() {
     folder.write("old.json", &old.to_string());
     report(&["--compare", "old.json"]).ends(0);
     old["rows"][0]["error_rms"] = 1e-3.into();
+    // A hundredth of what any machine takes, and the yardstick stays: this is slower however busy the machine is.
+    for key in ["cost_ns", "cost_spread", "yardstick_ns"] {
+        old["rows"][0][key] = measured["rows"][0][key].clone();
+    }
+    old["rows"][0]["cost_ns"] = (1e-2 * measured["rows"][0]["cost_ns"].as_f64().expect("a time")).into();
+    old["rows"][1] = measured["rows"][1].clone();
+    old["rows"][2] = measured["rows"][2].clone();
     folder.write("old.json", &old.to_string());
-    let run = report(&["--compare", "old.json"]).ends(3).says("figures that are worse: 1");
+    let run = report(&["--compare", "old.json"]).ends(3).says("mips: measured again").says("figures that are worse: 2");
     assert!(run.stdout.contains("less accurate: normal_mips"), "{}", run.stdout);
+    assert!(run.stdout.contains("slower: normal_mips unchanged: one call takes"), "{}", run.stdout);
+}
+
+#[test]
+fn what_cannot_be_compared_is_told_before_anything_is_measured() {
+    let folder = Folder::new();
+    let compared =
+        |name: &str| folder.run(&["report", "--quick", "--only", "mips", "-o", "out", "--compare", name]).ends(1);
     folder.write("old.json", "{}");
-    report(&["--compare", "old.json"]).ends(1).says("it is not a report");
-    folder.run(&["report", "--only", "paint", "-o", "out"]).ends(2);
+    compared("old.json").says("it is not a report");
+    compared("missing.json").says("cannot be read");
+    compared(".").says("cannot be read");
+    let of = |schema: u32, parts: &str| {
+        let text = format!(
+            r#"{{"schema": {schema}, "machine": "m", "date": "2026-01-01", "effort": "quick", "parts": [{parts}], "rows": []}}"#
+        );
+        folder.write("old.json", &text);
+    };
+    of(7, "");
+    compared("old.json").says("its layout is version 7; this program reads version 1");
+    of(1, r#""brdf""#);
+    compared("old.json").says("it holds brdf; measured would be mips");
+    folder.run(&["report", "--only", "paint", "-o", "out"]).ends(2).says("paint");
+    folder.write("file", "");
+    folder.run(&["report", "--quick", "--only", "mips", "-o", "file"]).ends(1).says("file");
+    assert!(!folder.path("out").exists());
 }
 
 /// Killed in the middle of its second part: the first is there, whole.

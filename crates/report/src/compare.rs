@@ -9,12 +9,27 @@ use crate::{Report, Row};
 /// A figure of a row, and its name for people.
 type Figure = (&'static str, fn(&Row) -> Option<f64>);
 
+/// A kind of time, and how sure it is.
+struct Timed {
+    name: &'static str,
+    cost: fn(&Row) -> Option<f64>,
+    spread: fn(&Row) -> Option<f64>,
+}
+
+const TIMED: [Timed; 2] = [
+    Timed { name: "one call", cost: |row| row.cost_ns, spread: |row| row.cost_spread },
+    Timed { name: "an element of a batch", cost: |row| row.cost_batch_ns, spread: |row| row.cost_batch_spread },
+];
+
 /// An error may differ by this part, for the elementary functions of another system.
 const ERROR_NOISE: f64 = 0.05;
 /// Errors below this are rounding of f64.
 const ERROR_FLOOR: f64 = 1e-9;
-/// A time may differ by this part and by four times the spreads of both runs.
+/// A time may differ by this part and by the spreads of both runs.
 const TIME_NOISE: f64 = 0.15;
+/// A time differs by more than this [ns], or not at all: what a batch of a quarter of a nanosecond an element takes depends on
+/// where the compiler's loop happens to lie, too.
+const TIME_FLOOR: f64 = 0.05;
 /// A counted number of instructions may grow by this part.
 const COUNT_NOISE: f64 = 0.02;
 
@@ -29,6 +44,8 @@ pub struct Change {
     pub method: String,
     /// Its inputs.
     pub domain: String,
+    /// Which of the row's figures.
+    pub figure: &'static str,
     /// The figure before and now, with what noise allows, in words.
     pub figures: String,
 }
@@ -40,9 +57,9 @@ impl fmt::Display for Change {
 }
 
 impl Change {
-    fn of(what: &'static str, row: &Row, figures: String) -> Change {
+    fn of(what: &'static str, row: &Row, figure: &'static str, figures: String) -> Change {
         let [term, method, domain] = [&row.term, &row.method, &row.domain].map(String::clone);
-        Change { what, term, method, domain, figures }
+        Change { what, term, method, domain, figure, figures }
     }
 
     fn is_of(&self, row: &Row) -> bool {
@@ -52,9 +69,10 @@ impl Change {
 
 /// What is worse in `new` than in `old`, among the rows of the parts that both hold.
 ///
-/// Times are compared as ratios: the machine's own speed, which is the median of all ratios, is divided out, so that two
-/// machines can be compared, and what all methods lose together is not seen. Errors are compared only when both
-/// reports drew the same points, which they do when their efforts are the same.
+/// Times are compared as ratios. What the machine did while a method was measured is divided out by the yardstick that ran beside
+/// it; then the machine's own speed, which is the median of all ratios: so two machines can be compared, and what all methods
+/// lose together is not seen. Errors are compared only when both reports drew the same points, which they do when their
+/// efforts are the same.
 pub fn changes(old: &Report, new: &Report) -> Vec<Change> {
     let key = |row: &Row| (row.term.clone(), row.method.clone(), row.domain.clone());
     let of = |part: &Row| new.rows.iter().find(|row| key(row) == key(part));
@@ -68,8 +86,14 @@ pub fn changes(old: &Report, new: &Report) -> Vec<Change> {
     let is_whole = old.parts.iter().all(|part| is_measured(part));
     let was_measured = |row: &Row| if row.part.is_empty() { is_whole } else { is_measured(&row.part) };
     let gone = old.rows.iter().filter(|row| was_measured(row) && of(row).is_none());
-    changes.extend(gone.map(|row| Change::of("gone", row, "it has no row any more".to_owned())));
+    changes.extend(gone.map(|row| Change::of("gone", row, "row", "it has no row any more".to_owned())));
     changes
+}
+
+/// How many rows both reports have.
+pub fn common(old: &Report, new: &Report) -> usize {
+    let keys: HashSet<_> = new.rows.iter().map(|row| (&row.term, &row.method, &row.domain)).collect();
+    old.rows.iter().filter(|row| keys.contains(&(&row.term, &row.method, &row.domain))).count()
 }
 
 /// What is said of times; of all else a second run would say the same.
@@ -83,35 +107,40 @@ pub fn doubtful<'r>(changes: &[Change], new: &'r Report) -> HashSet<&'r str> {
 
 /// Takes out what was slower once and is not in `again`, another run of the same.
 pub fn confirm(changes: &mut Vec<Change>, again: &[Change]) {
-    let same = |a: &Change, b: &Change| [&a.term, &a.method, &a.domain] == [&b.term, &b.method, &b.domain];
-    changes.retain(|change| {
-        change.what != SLOWER || again.iter().any(|other| other.what == SLOWER && same(change, other))
-    });
+    let key = |change: &Change| (change.term.clone(), change.method.clone(), change.domain.clone(), change.figure);
+    let is_same = |a: &Change, b: &Change| b.what == SLOWER && key(a) == key(b);
+    changes.retain(|change| change.what != SLOWER || again.iter().any(|other| is_same(change, other)));
+}
+
+/// How often as long a time is as before, beside the yardsticks of both runs; of runs before there was one, by itself.
+fn ratio(timed: &Timed, old: &Row, new: &Row) -> Option<f64> {
+    let pace = match (old.yardstick_ns, new.yardstick_ns) {
+        (Some(before), Some(now)) => now / before,
+        _ => 1.0,
+    };
+    Some((timed.cost)(new)? / (timed.cost)(old)? / pace).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
 }
 
 fn slower(pairs: &[(&Row, &Row)]) -> Vec<Change> {
-    let kinds: [Figure; 2] = [("one call", |row| row.cost_ns), ("an element of a batch", |row| row.cost_batch_ns)];
-    let ratio = |cost: fn(&Row) -> Option<f64>, old, new| Some(cost(new)? / cost(old)?).filter(|x| x.is_finite());
-    let all = pairs.iter().flat_map(|&(old, new)| kinds.iter().filter_map(move |(_, cost)| ratio(*cost, old, new)));
+    let all = pairs.iter().flat_map(|&(old, new)| TIMED.iter().filter_map(move |timed| ratio(timed, old, new)));
     let machine = median(all.collect());
     let mut changes = Vec::new();
     // The same time stands in the rows of all domains of a method.
     let mut told = HashSet::new();
     for &(old, new) in pairs {
-        for (name, cost) in kinds {
-            let (Some(before), Some(now), Some(ratio)) = (cost(old), cost(new), ratio(cost, old, new)) else {
-                continue;
-            };
+        for timed in &TIMED {
+            let (Some(before), Some(now)) = ((timed.cost)(old), (timed.cost)(new)) else { continue };
+            let Some(ratio) = ratio(timed, old, new).map(|ratio| ratio / machine) else { continue };
             // A time of too few runs does not know its noise: it proves nothing.
-            let (Some(first), Some(second)) = (old.cost_spread, new.cost_spread) else { continue };
-            let allowed = 1.0 + TIME_NOISE + 4.0 * (first + second);
-            if ratio > allowed * machine && told.insert((&old.term, &old.method, before.to_bits())) {
+            let (Some(first), Some(second)) = ((timed.spread)(old), (timed.spread)(new)) else { continue };
+            let allowed = 1.0 + TIME_NOISE + first + second;
+            let seen = ratio > allowed && (ratio - 1.0) * before > TIME_FLOOR;
+            if seen && told.insert((&old.term, &old.method, before.to_bits())) {
                 let figures = format!(
-                    "{name} takes {now:.3} ns, was {before:.3} ns; {:.2} times as long beside the other methods, noise allows \
-                     {allowed:.2}",
-                    ratio / machine
+                    "{} takes {now:.3} ns, was {before:.3} ns; {ratio:.2} times as long beside what else ran, noise allows {allowed:.2}",
+                    timed.name
                 );
-                changes.push(Change::of(SLOWER, old, figures));
+                changes.push(Change::of(SLOWER, old, timed.name, figures));
             }
         }
     }
@@ -126,7 +155,7 @@ fn longer(pairs: &[(&Row, &Row)]) -> Vec<Change> {
         let (Some(before), Some(now)) = (old.instructions, new.instructions) else { continue };
         let grown = now as f64 > before as f64 * (1.0 + COUNT_NOISE);
         if grown && told.insert((&old.term, &old.method, before)) {
-            changes.push(Change::of("longer", old, format!("{now} instructions, were {before}")));
+            changes.push(Change::of("longer", old, "instructions", format!("{now} instructions, were {before}")));
         }
     }
     changes
@@ -141,14 +170,14 @@ fn less_accurate(old: &Row, new: &Row) -> Vec<Change> {
         if let Some(before) = error(old)
             && now > before * (1.0 + ERROR_NOISE) + ERROR_FLOOR
         {
-            changes.push(Change::of("less accurate", old, format!("{name} {now:.3e}, was {before:.3e}")));
+            changes.push(Change::of("less accurate", old, name, format!("{name} {now:.3e}, was {before:.3e}")));
             break;
         }
     }
     let count = |row: &Row| row.not_finite.unwrap_or(0);
     if count(new) > count(old) {
         let figures = format!("{}, were {}", count(new), count(old));
-        changes.push(Change::of("more results that are no numbers", old, figures));
+        changes.push(Change::of("more results that are no numbers", old, "results", figures));
     }
     changes
 }
@@ -183,6 +212,41 @@ mod tests {
             [("slower", "c"), ("less accurate", "b")]
         );
         assert!(worse[0].to_string().starts_with("slower: d c: one call takes 6.000 ns, was 4.000 ns; 1.50 times"));
+    }
+
+    /// What a quiet machine sees, 1.3 times, and what both runs were unsure of, they do not tell apart.
+    #[test]
+    fn a_slowdown_is_told_beyond_the_spreads_of_both_runs() {
+        let old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.0]);
+        let mut new = report([1.0, 2.0, 1.3 * 4.0], [0.1, 0.2, 0.0]);
+        assert_eq!(changes(&old, &new).len(), 1);
+        new.rows[2].cost_spread = Some(0.2);
+        assert_eq!(changes(&old, &new), []);
+    }
+
+    /// A slow moment of the machine meets the yardstick, too.
+    #[test]
+    fn a_slow_moment_is_not_a_slow_method() {
+        let mut old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.0]);
+        old.rows.iter_mut().for_each(|row| row.yardstick_ns = Some(4.0));
+        let mut new = report([1.0, 2.0, 8.0], [0.1, 0.2, 0.0]);
+        new.rows.iter_mut().for_each(|row| row.yardstick_ns = Some(4.0));
+        assert_eq!(changes(&old, &new).len(), 1);
+        new.rows[2].yardstick_ns = Some(8.0);
+        assert_eq!(changes(&old, &new), []);
+    }
+
+    #[test]
+    fn a_batch_has_its_own_spread_and_needs_a_difference_that_is_seen() {
+        let mut old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.0]);
+        (old.rows[0].cost_batch_ns, old.rows[0].cost_batch_spread) = (Some(0.1), Some(0.01));
+        let mut new = old.clone();
+        new.rows[0].cost_batch_ns = Some(0.14);
+        assert_eq!(changes(&old, &new), []);
+        new.rows[0].cost_batch_ns = Some(0.2);
+        assert_eq!(changes(&old, &new)[0].figure, "an element of a batch");
+        new.rows[0].cost_batch_spread = None;
+        assert_eq!(changes(&old, &new), []);
     }
 
     #[test]
@@ -237,9 +301,14 @@ mod tests {
         let mut found = changes(&old, &new);
         assert_eq!(found.iter().map(|c| c.what).collect::<Vec<_>>(), ["slower", "less accurate"]);
         assert_eq!(doubtful(&found, &new), HashSet::from(["brdf"]));
-        let again = found.clone();
+        let mut again = found.clone();
         confirm(&mut found, &again);
         assert_eq!(found.len(), 2);
+        // Another figure of the row says nothing of this one.
+        again[0].figure = "an element of a batch";
+        let mut of_another = found.clone();
+        confirm(&mut of_another, &again);
+        assert_eq!(of_another.len(), 1);
         confirm(&mut found, &[]);
         assert_eq!(found.iter().map(|c| c.what).collect::<Vec<_>>(), ["less accurate"]);
     }

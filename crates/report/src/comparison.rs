@@ -29,6 +29,15 @@ impl Cost {
         }
     }
 
+    /// How sure a row's cost is, in parts; what is counted is exact. None where it is not known.
+    pub fn spread(self, row: &Row) -> Option<f64> {
+        match self {
+            Cost::Batch => row.cost_batch_spread,
+            Cost::Call => row.cost_spread,
+            Cost::Bytes | Cost::Instructions => Some(0.0),
+        }
+    }
+
     /// Title of an axis or a column, with the unit.
     pub fn title(self) -> &'static str {
         match self {
@@ -47,8 +56,12 @@ impl Cost {
     /// How it was measured.
     pub fn measured(self) -> &'static str {
         match self {
-            Cost::Batch => "Time: one element of a batch on one core; the median of interleaved runs after a warm-up.",
-            Cost::Call => "Time: one call after the other on one core; the median of interleaved runs after a warm-up.",
+            Cost::Batch => {
+                "Time: one element of a batch on one core; the median of interleaved runs, of five sittings the fastest."
+            }
+            Cost::Call => {
+                "Time: one call after the other on one core; the median of interleaved runs, of five sittings the fastest."
+            }
             Cost::Bytes => "Memory: what the method reads, counted and not timed.",
             Cost::Instructions => {
                 "Instructions: SPIR-V of a whole fragment stage with the method, counted and not timed."
@@ -215,8 +228,7 @@ pub fn mark_pareto(rows: &mut [Row]) {
 }
 
 fn figure(cost: Cost, row: &Row) -> Option<(f64, f64, Option<f64>)> {
-    let spread = if cost.is_time() { row.cost_spread } else { Some(0.0) };
-    Some((row.error_rms?, cost.of(row)?, spread))
+    Some((row.error_rms?, cost.of(row)?, cost.spread(row)))
 }
 
 /// All comparisons among rows: methods against the same truth. Domains on which the same methods were measured are taken
@@ -255,8 +267,7 @@ fn comparison<'a>(rows: &'a [Row], cost: Cost, groups: &[Vec<usize>]) -> Compari
             front: false,
         });
     }
-    let spread = |entry: &Entry<'_>| if cost.is_time() { entry.row.cost_spread } else { Some(0.0) };
-    let figures: Vec<_> = entries.iter().map(|entry| (entry.rms, entry.cost, spread(entry))).collect();
+    let figures: Vec<_> = entries.iter().map(|entry| (entry.rms, entry.cost, cost.spread(entry.row))).collect();
     for (entry, front) in entries.iter_mut().zip(front(&figures)) {
         entry.front = front;
     }
@@ -273,7 +284,7 @@ fn comparison<'a>(rows: &'a [Row], cost: Cost, groups: &[Vec<usize>]) -> Compari
 
 impl<'a> Comparison<'a> {
     /// The method to take within a budget: the cheapest whose rms error is within the budget's limit, or, where none is,
-    /// the most accurate. Film takes the cheapest of those that are within 5 % of the least error or of rounding.
+    /// that for film, which is the cheapest of those that are within 5 % of the least error or of rounding.
     pub fn choice(&self, budget: Budget) -> &Entry<'a> {
         let front = || self.entries.iter().filter(|entry| entry.front);
         let best = front().next().unwrap_or(&self.entries[0]);
@@ -282,7 +293,11 @@ impl<'a> Comparison<'a> {
             _ => self.unit.limit(budget),
         };
         let within = front().filter(|entry| entry.rms <= limit);
-        within.min_by(|a, b| a.cost.total_cmp(&b.cost)).unwrap_or(best)
+        match within.min_by(|a, b| a.cost.total_cmp(&b.cost)) {
+            Some(entry) => entry,
+            None if budget == Budget::Film => best,
+            None => self.choice(Budget::Film),
+        }
     }
 
     /// Whether the method keeps the budget's limit, or is only the best that there is.
@@ -345,5 +360,17 @@ mod tests {
         let chosen = |budget| both.choice(budget).row.method.as_str();
         assert_eq!(Budget::ALL.map(chosen), ["a", "a", "a"]);
         assert!(both.keeps(&both.entries[0], Budget::Desktop) && !both.keeps(&both.entries[1], Budget::Mobile));
+    }
+
+    /// Where no method is good enough, no budget pays for the last hundredth of an error.
+    #[test]
+    fn beyond_every_limit_all_budgets_choose_alike() {
+        let rows = vec![row("dear", "one; relative", 0.31, 9.0), row("a", "one; relative", 0.32, 1.0)];
+        let found = comparisons(&rows);
+        assert_eq!(Budget::ALL.map(|budget| found[0].choice(budget).row.method.as_str()), ["a", "a", "a"]);
+        assert_eq!(
+            crate::words::finding(&found[0]),
+            "`a` errs 32 %, next to the least there is, and nothing is cheaper"
+        );
     }
 }

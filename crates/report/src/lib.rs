@@ -14,6 +14,7 @@ pub mod comparison;
 pub mod error;
 pub mod page;
 pub mod part;
+pub mod placed;
 pub mod plot;
 pub mod publish;
 mod report;

@@ -7,6 +7,8 @@ use crate::part::shaders;
 use crate::plot::{dark_rules, escaped, scatter};
 use crate::{PARTS, Report, Row, terms, words};
 
+mod tables;
+
 const STYLE: &str = include_str!("page/style.css");
 const SORT: &str = include_str!("page/sort.js");
 
@@ -85,8 +87,7 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
         page,
         "<h2 id=\"choose\">What to choose</h2>\n<p>Made from the figures below by one rule. <b>Mobile</b> takes the cheapest \
          method whose rms error is at most {}, <b>desktop</b> the cheapest within {}, <b>film</b> the most accurate, and of \
-         those that are as accurate the cheapest. Where no method keeps a limit, the most accurate one stands with its \
-         error in brackets.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
+         those that are as accurate the cheapest. Where no method keeps a limit, the one for film stands in brackets.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
          <th>mobile</th><th>desktop</th><th>film</th></tr></thead><tbody>\n",
         limit(Budget::Mobile),
         limit(Budget::Desktop)
@@ -121,7 +122,7 @@ fn chapter(term: &str, report: &Report, comparisons: &[Comparison<'_>], page: &m
     let help = terms::help(term);
     let _ = writeln!(page, "<h2 id=\"{0}\">{1} <code>{0}</code></h2>", escaped(term), escaped(&capital(help)));
     for comparison in comparisons.iter().filter(|comparison| comparison.term == term) {
-        figure(comparison, page);
+        figure(comparison, report, page);
     }
     let drawn = |row: &Row| {
         comparisons.iter().any(|comparison| {
@@ -136,29 +137,8 @@ fn chapter(term: &str, report: &Report, comparisons: &[Comparison<'_>], page: &m
     let told = |row: &&Row| report.rows.iter().any(|other| shaders::tells_of(other, row));
     let others: Vec<&Row> = others.into_iter().filter(|row| !told(row)).collect();
     if !others.is_empty() {
-        page.push_str("<section class=\"card\">");
-        if let Some(title) = alone(&others) {
-            let _ = write!(page, "<h3>{}</h3>", code(&title));
-        }
-        plain_table(&others, page);
-        page.push_str("</section>\n");
+        tables::section(&others, page);
     }
-}
-
-/// What rows without another to weigh them against show.
-fn alone(rows: &[&Row]) -> Option<String> {
-    let rms = |row: &&Row| row.error_rms.unwrap_or(f64::INFINITY);
-    let known: Vec<&Row> = rows.iter().copied().filter(|row| row.error_rms.is_some()).collect();
-    let least = known.iter().copied().min_by(|a, b| rms(a).total_cmp(&rms(b)))?;
-    let most = known.iter().copied().max_by(|a, b| rms(a).total_cmp(&rms(b)))?;
-    let text = |row: &Row| words::error(rms(&row), Unit::of(&row.domain));
-    let name =
-        if least.method == most.method { format!("`{}` errs", least.method) } else { "The error goes".to_owned() };
-    Some(if known.len() == 1 {
-        format!("`{}` errs {}", least.method, text(least))
-    } else {
-        format!("{name} from {} to {} rms over what is listed here", text(least), text(most))
-    })
 }
 
 /// Text with names in backticks, as HTML.
@@ -180,16 +160,16 @@ fn capital(text: &str) -> String {
     chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
-fn figure(comparison: &Comparison<'_>, page: &mut String) {
-    let spread = comparison
-        .entries
-        .iter()
-        .filter_map(|entry| entry.row.cost_spread)
-        .fold(None, |most: Option<f64>, x| Some(most.map_or(x, |most| most.max(x))));
+fn figure(comparison: &Comparison<'_>, report: &Report, page: &mut String) {
+    let is_drawn = |row: &&Row| row.term == comparison.term && comparison.domains.contains(&row.domain.as_str());
+    let has_entry = |row: &&Row| comparison.entries.iter().any(|entry| entry.row.method == row.method);
+    let cases: Vec<&Row> = report.rows.iter().filter(is_drawn).filter(has_entry).collect();
+    let spread = comparison.entries.iter().filter_map(|entry| comparison.cost.spread(entry.row)).reduce(f64::max);
     let sure = match spread {
         Some(spread) if comparison.cost.is_time() => {
-            format!(" Half of the runs lie within ±{} % of it, or less.", words::number(100.0 * spread))
+            format!(" The sitting in the middle took up to {} % longer.", words::number(100.0 * spread))
         }
+        None => " There were too few runs to say how sure that is.".to_owned(),
         _ => String::new(),
     };
     let whiskers = if comparison.domains.len() > 1 {
@@ -201,7 +181,7 @@ fn figure(comparison: &Comparison<'_>, page: &mut String) {
     let full_stop = if against.is_empty() { "" } else { "." };
     let _ = write!(
         page,
-        "<figure>\n<h3>{}</h3>\n{}\n<figcaption><p class=\"legend\"><span><i class=\"dot\"></i>unbeaten: nothing else is both cheaper \
+        "<figure>\n<h3>{}</h3>\n<div class=\"scroll\">{}</div>\n<figcaption><p class=\"legend\"><span><i class=\"dot\"></i>unbeaten: nothing else is both cheaper \
          and at least as accurate</span><span><i class=\"dot beaten\"></i>beaten</span><span>★ the default</span></p>\
          <p><b>How:</b> {}. {}{full_stop} {}{sure} Down and to the left is better.{whiskers}</p></figcaption>\n",
         code(&words::finding(comparison)),
@@ -211,6 +191,11 @@ fn figure(comparison: &Comparison<'_>, page: &mut String) {
         comparison.cost.measured(),
     );
     table(comparison, page);
+    if comparison.domains.len() > 2 {
+        let _ = write!(page, "<details><summary>rms error in each of the {} cases</summary>", comparison.domains.len());
+        tables::matrix(&cases, page);
+        page.push_str("</details>\n");
+    }
     page.push_str("</figure>\n");
 }
 
@@ -281,52 +266,6 @@ fn tags(row: &Row) -> String {
         + &tag(terms::is_report(&row.term, &row.method), "<span class=\"tag plain\">the report's</span>")
 }
 
-/// Rows by themselves: the inputs stand in a column of their own.
-fn plain_table(rows: &[&Row], page: &mut String) {
-    let has = |some: fn(&Row) -> bool| rows.iter().any(|row| some(row));
-    let columns = [
-        ("FLIP", has(|row| row.flip.is_some())),
-        ("NaN or inf", has(|row| row.not_finite.is_some())),
-        ("one call", has(|row| row.cost_ns.is_some())),
-        ("one of many", has(|row| row.cost_batch_ns.is_some())),
-        ("memory", has(|row| row.bytes.is_some())),
-        ("instructions", has(|row| row.instructions.is_some())),
-        ("device pixel", has(|row| row.gpu_ns.is_some())),
-    ];
-    page.push_str(
-        "<div class=\"scroll\"><table><thead><tr><th>method</th><th class=\"n\">rms error</th>\
-         <th class=\"n\">largest error</th>",
-    );
-    for (name, _) in columns.iter().filter(|(_, there)| *there) {
-        let _ = write!(page, "<th class=\"n\">{name}</th>");
-    }
-    page.push_str("<th>inputs, and what the error is against</th></tr></thead><tbody>\n");
-    for row in rows {
-        let error = |x| words::error(x, Unit::of(&row.domain));
-        let _ = write!(page, "<tr><td>{}{}</td>", escaped(&row.method), tags(row));
-        page.push_str(&cell(row.error_rms, error));
-        page.push_str(&cell(row.error_max, error));
-        let cells = [
-            cell(row.flip, words::number),
-            cell(row.not_finite.map(|x| x as f64), |x| format!("{x:.0}")),
-            cell(row.cost_ns, |x| words::cost(x, Cost::Call)),
-            cell(row.cost_batch_ns, |x| words::cost(x, Cost::Batch)),
-            cell(row.bytes.map(|x| x as f64), |x| words::cost(x, Cost::Bytes)),
-            cell(row.instructions.map(|x| x as f64), |x| format!("{x:.0}")),
-            cell(row.gpu_ns, |x| words::cost(x, Cost::Call)),
-        ];
-        for (cell, _) in cells.iter().zip(&columns).filter(|(_, (_, there))| *there) {
-            page.push_str(cell);
-        }
-        let failure = row
-            .first_failure
-            .as_deref()
-            .map_or(String::new(), |at| format!("; fails first at {}", words::shortened(at)));
-        let _ = writeln!(page, "<td class=\"small\">{}{}</td></tr>", escaped(&row.domain), escaped(&failure));
-    }
-    page.push_str("</tbody></table></div>\n");
-}
-
 /// What f32 adds to each form.
 fn rounding(report: &Report, page: &mut String) {
     let mut rows: Vec<&Row> = report.rows.iter().filter(|row| row.is_rounding()).collect();
@@ -371,8 +310,10 @@ fn foot(report: &Report, page: &mut String) {
         "<h2 id=\"how\">How it is measured</h2>\n<section class=\"card\">\n<p><b>Errors</b> are differences from a truth in 64-bit \
          arithmetic: exact equations, converged quadrature or a sum over every texel, as each figure says. The points are the \
          same in every run, so the errors are, too.</p>\n<p><b>Times</b> are of {}. The methods of a figure run in turns, so \
-         that a slow moment meets all of them alike; the first turn warms up and is not counted; what stands is the median. \
-         Read them as ratios within a figure: another machine has other nanoseconds.</p>\n<p><b>Instructions</b> are those of \
+         that a slow moment meets all of them alike, in five sittings with some time between them; what stands is the median of \
+         the fastest sitting, because whatever else the machine does only adds. Batches are of 1,024 elements, which stay in the \
+         nearest cache, in columns that begin at cache lines. Read times as ratios within a figure: another machine has other \
+         nanoseconds.</p>\n<p><b>Instructions</b> are those of \
          the whole fragment stage of one plain shader with the method, in SPIR-V as naga writes it, before a driver optimises it; \
          called functions count where they are called. What a method adds is its difference from another method.</p>{device}\n<p><b>The front</b>: a method \
          is marked when no other on the same inputs is cheaper and at least as accurate. Times within their spread count as \

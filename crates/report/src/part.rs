@@ -30,14 +30,13 @@ impl Part {
     /// About how long it takes on two cores [s]; parts that are not named here are quick.
     pub fn seconds(&self, effort: Effort) -> f64 {
         let [quick, full] = match self.name {
-            "shaders" => [20.0, 60.0],
-            "brdf" => [0.3, 20.0],
-            "energy" => [2.0, 10.0],
-            "ibl" => [27.0, 400.0],
-            "pictures" => [25.0, 400.0],
+            "shaders" => [30.0, 60.0],
+            "ibl" => [15.0, 60.0],
+            "lobes" => [8.0, 50.0],
             "specular_aa" => [1.0, 10.0],
-            "peers" => [10.0, 120.0],
-            _ => [0.5, 5.0],
+            "pictures" => [45.0, 400.0],
+            "peers" => [5.0, 110.0],
+            _ => [1.0, 6.0],
         };
         match effort {
             Effort::Quick => quick,

@@ -213,8 +213,10 @@ fn labels(root: &Area<'_>, dots: &[Dot], places: &[(i32, i32)], corners: &[(i32,
             root.draw(&PathElement::new(vec![(x, y), (near, middle)], BEATEN.stroke_width(1)))?;
         }
         let color = if dot.front { INK } else { MUTED };
-        let style = ("sans-serif", 15).into_font().color(&color).pos(Pos::new(HPos::Left, VPos::Center));
-        root.draw(&Text::new(dot.name.clone(), (left, middle), style))?;
+        // How wide a name is is a guess: it grows away from its dot.
+        let (anchor, from) = if place[2] <= x { (HPos::Right, place[2]) } else { (HPos::Left, left) };
+        let style = ("sans-serif", 15).into_font().color(&color).pos(Pos::new(anchor, VPos::Center));
+        root.draw(&Text::new(dot.name.clone(), (from, middle), style))?;
     }
     Ok(())
 }

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::timing::Time;
+
 /// What one method costs, and how wrong it is, on one domain. A number that does not apply is `None`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -33,8 +35,12 @@ pub struct Row {
     pub cost_ns: Option<f64>,
     /// Time of one element of a batch on one core [ns].
     pub cost_batch_ns: Option<f64>,
-    /// Half the distance of the quartiles of the times, over their median: how sure the time is.
+    /// How sure `cost_ns` is: by how much of it the median sitting took longer than the fastest, whose time it is.
     pub cost_spread: Option<f64>,
+    /// The same for `cost_batch_ns`.
+    pub cost_batch_spread: Option<f64>,
+    /// Time of a step of the yardstick in the same turns [ns]: how fast the machine was; see [`crate::timing`].
+    pub yardstick_ns: Option<f64>,
     /// SPIR-V instructions of a whole fragment stage with the method; see [`crate::part::shaders`].
     pub instructions: Option<u64>,
     /// Time of a pixel of that shader on the device [ns]: the shortest of several turns.
@@ -52,6 +58,18 @@ impl Row {
     /// A row without figures.
     pub fn new(term: &str, method: &str, domain: &str) -> Row {
         Row { term: term.into(), method: method.into(), domain: domain.into(), ..Row::default() }
+    }
+
+    /// Takes the time of a run of `calls` calls, one after the other.
+    pub(crate) fn take_time(&mut self, time: Time, calls: usize) {
+        (self.cost_ns, self.cost_spread) = (Some(time.seconds * 1e9 / calls as f64), time.spread);
+        self.yardstick_ns = Some(time.pace * 1e9);
+    }
+
+    /// Takes the time of a batch of `elements`.
+    pub(crate) fn take_batch_time(&mut self, time: Time, elements: usize) {
+        (self.cost_batch_ns, self.cost_batch_spread) = (Some(time.seconds * 1e9 / elements as f64), time.spread);
+        self.yardstick_ns = Some(time.pace * 1e9);
     }
 
     /// Whether the error is what the arithmetic of f32 adds to the method, and not what the method leaves out.

@@ -1,47 +1,117 @@
-//! Times that can be compared: every candidate runs once per round, so that a slow moment of the machine meets all alike,
-//! and each gets the median of its rounds.
+//! Times that can be compared: every candidate runs once per round, so that a slow moment of the machine meets all alike.
+//! The rounds lie in several sittings, apart in time and each with its own memory ([`crate::placed`]).
+//!
+//! Beside the candidates runs a yardstick, a loop that knows nothing of them: how fast the machine was while they ran.
 
-use std::time::Instant;
+use std::hint::black_box;
+use std::time::{Duration, Instant};
 
-/// A candidate: what is run. It returns something of its result, so that the work is not optimised away.
-pub type Candidate<'a> = &'a mut dyn FnMut() -> f64;
+/// A candidate: what is run, given the number of the sitting. It returns something of its result, so that the work is not
+/// optimised away.
+pub type Candidate<'a> = &'a mut dyn FnMut(usize) -> f64;
+
+/// How often a candidate is measured, some time apart; in each sitting what it reads may lie elsewhere.
+pub const SITTINGS: usize = 5;
+
+/// Long beside the clock's step and what the first run has to fetch.
+const ROUND: Duration = Duration::from_micros(50);
+
+/// From one sitting to the next.
+const PAUSE: Duration = Duration::from_millis(60);
 
 /// How long a candidate takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Time {
-    /// The median of the rounds [s].
+    /// The median of the rounds of the fastest sitting [s]: what else the machine does only adds.
     pub seconds: f64,
-    /// Half the distance of the quartiles, over the median; none of fewer than four rounds.
+    /// How much longer the median sitting took, in parts; none of fewer than three sittings.
     pub spread: Option<f64>,
+    /// A step of the yardstick in the fastest of its sittings [s].
+    pub pace: f64,
 }
 
-/// Times one run of each candidate over `rounds` interleaved rounds, after one round that warms up.
+/// Times each candidate over `rounds` interleaved rounds in all; in a round it runs as often as fills [`ROUND`]. Rounds that
+/// warm up are not counted: one of each sitting, or the very first where a sitting is one round.
 pub fn measured(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<Time> {
-    let mut seconds = vec![Vec::with_capacity(rounds); candidates.len()];
-    for round in 0..=rounds {
-        for (candidate, seconds) in candidates.iter_mut().zip(&mut seconds) {
-            let start = Instant::now();
-            std::hint::black_box(candidate());
-            if round > 0 {
-                seconds.push(start.elapsed().as_secs_f64());
+    let sittings = rounds.clamp(1, SITTINGS);
+    let each = rounds.div_ceil(sittings);
+    let mut yardstick = yardstick;
+    let mut all: Vec<Candidate<'_>> = candidates.iter_mut().map(|candidate| &mut **candidate as _).collect();
+    all.push(&mut yardstick);
+    let mut runs = vec![1; all.len()];
+    let mut medians = vec![Vec::with_capacity(sittings); all.len()];
+    for sitting in 0..sittings {
+        if sitting == 0 {
+            for (candidate, runs) in all.iter_mut().zip(&mut runs) {
+                let often = |seconds: f64| (ROUND.as_secs_f64() / seconds.max(1e-9)).clamp(1.0, 1000.0) as u32;
+                // The first run fetches what the others need, and says little of them.
+                *runs = often(seconds_of(*candidate, sitting, 1));
+                if *runs > 1 {
+                    *runs = often(seconds_of(*candidate, sitting, *runs));
+                }
             }
         }
+        let warm_up = usize::from(each > 1);
+        let mut seconds = vec![Vec::with_capacity(each); all.len()];
+        for round in 0..warm_up + each {
+            for ((candidate, &runs), seconds) in all.iter_mut().zip(&runs).zip(&mut seconds) {
+                let time = seconds_of(*candidate, sitting, runs);
+                if round >= warm_up {
+                    seconds.push(time);
+                }
+            }
+        }
+        for (medians, seconds) in medians.iter_mut().zip(seconds) {
+            medians.push(median(seconds));
+        }
+        if sitting + 1 < sittings {
+            std::thread::sleep(PAUSE);
+        }
     }
-    seconds.into_iter().map(time).collect()
+    let pace = medians.pop().map_or(0.0, |medians| time(medians).seconds / f64::from(STEPS));
+    medians.into_iter().map(|medians| Time { pace, ..time(medians) }).collect()
 }
 
-/// The medians of [`measured`] [s].
-pub fn interleaved(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<f64> {
-    measured(candidates, rounds).iter().map(|time| time.seconds).collect()
+/// The mean time of some runs of a candidate [s], with a stack that begins elsewhere within its cache line in each sitting: a function
+/// that keeps vectors there may take three times as long for where they lie.
+fn seconds_of(candidate: Candidate<'_>, sitting: usize, runs: u32) -> f64 {
+    match sitting % 4 {
+        0 => padded::<16>(candidate, sitting, runs),
+        1 => padded::<32>(candidate, sitting, runs),
+        2 => padded::<48>(candidate, sitting, runs),
+        _ => padded::<64>(candidate, sitting, runs),
+    }
 }
 
-fn time(mut seconds: Vec<f64>) -> Time {
-    seconds.sort_by(f64::total_cmp);
-    let quarter = seconds.len() / 4;
-    let middle = median(seconds.clone());
-    let spread =
-        (quarter > 0 && middle > 0.0).then(|| 0.5 * (seconds[seconds.len() - 1 - quarter] - seconds[quarter]) / middle);
-    Time { seconds: middle, spread }
+#[inline(never)]
+fn padded<const BYTES: usize>(candidate: Candidate<'_>, sitting: usize, runs: u32) -> f64 {
+    let pad = black_box([0_u8; BYTES]);
+    let start = Instant::now();
+    for _ in 0..runs {
+        black_box(candidate(sitting));
+    }
+    let seconds = start.elapsed().as_secs_f64() / f64::from(runs);
+    black_box(&pad);
+    seconds
+}
+
+const STEPS: u32 = 1000;
+
+/// Chains of multiplications and additions, as many as keep the processor's units busy: what shares them (another thread of the
+/// core) slows it as it slows what is measured.
+fn yardstick(_: usize) -> f64 {
+    let mut x: [f64; 16] = std::array::from_fn(|i| 0.1 + 0.05 * i as f64);
+    for _ in 0..STEPS {
+        x = x.map(|x| 3.7 * x * (1.0 - x));
+    }
+    black_box(x).iter().sum()
+}
+
+fn time(mut sittings: Vec<f64>) -> Time {
+    sittings.sort_by(f64::total_cmp);
+    let seconds = sittings[0];
+    let spread = (sittings.len() > 2 && seconds > 0.0).then(|| sittings[sittings.len() / 2] / seconds - 1.0);
+    Time { seconds, spread, pace: 0.0 }
 }
 
 /// The middle number, or the mean of the two middle ones; 0 for none.
@@ -60,18 +130,18 @@ mod tests {
 
     #[test]
     fn the_longer_of_two_works_takes_longer() {
-        let work = |n: u32| move || (0..n).map(|i| f64::from(std::hint::black_box(i)).sqrt()).sum();
+        let work = |n: u32| move |_| (0..n).map(|i| f64::from(std::hint::black_box(i)).sqrt()).sum();
         let (mut short, mut long) = (work(1_000), work(200_000));
-        let seconds = interleaved(&mut [&mut short, &mut long], 5);
-        assert!(seconds[0] < seconds[1], "{seconds:?}");
+        let times = measured(&mut [&mut short, &mut long], 5);
+        assert!(times[0].seconds < times[1].seconds && times[0].pace > 0.0, "{times:?}");
         assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
         assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), 2.5);
     }
 
     #[test]
-    fn the_spread_is_that_of_the_inner_half() {
-        let eight = time(vec![1.0, 100.0, 9.0, 10.0, 10.0, 11.0, 12.0, 8.0]);
-        assert_eq!((eight.seconds, eight.spread), (10.0, Some(0.1)));
-        assert_eq!(time(vec![1.0, 2.0, 3.0]).spread, None);
+    fn the_fastest_sitting_counts_and_the_median_says_how_sure_it_is() {
+        let five = time(vec![2.0, 1.0, 9.0, 1.25, 1.5]);
+        assert_eq!((five.seconds, five.spread), (1.0, Some(0.5)));
+        assert_eq!(time(vec![1.0, 2.0]).spread, None);
     }
 }

@@ -58,7 +58,7 @@ pub fn cost(x: f64, kind: Cost) -> String {
     match kind {
         Cost::Bytes if x >= 1e6 => format!("{} MB", number(x / 1e6)),
         Cost::Bytes if x >= 1e4 => format!("{} kB", number(x / 1e3)),
-        Cost::Bytes => format!("{x:.0} bytes"),
+        Cost::Bytes => format!("{x:.0} {}", if x == 1.0 { "byte" } else { "bytes" }),
         Cost::Instructions => format!("{x:.0} instructions"),
         _ if x >= 1e6 => format!("{} ms", number(x / 1e6)),
         _ if x >= 1e4 => format!("{} µs", number(x / 1e3)),
@@ -71,7 +71,13 @@ pub fn finding(comparison: &Comparison<'_>) -> String {
     let text = |entry: &Entry<'_>| error(entry.rms, comparison.unit);
     let best = comparison.choice(Budget::Film);
     let name = &best.row.method;
-    let errs = if best.rms == 0.0 { "is exact".to_owned() } else { format!("errs least, {}", text(best)) };
+    let errs = if best.rms == 0.0 {
+        "is exact".to_owned()
+    } else if comparison.entries.iter().all(|entry| best.rms <= entry.rms.max(comparison.unit.limit(Budget::Film))) {
+        format!("errs least, {}", text(best))
+    } else {
+        format!("errs {}, next to the least there is", text(best))
+    };
     let front = comparison.entries.iter().filter(|entry| entry.front);
     let cheapest = front.min_by(|a, b| a.cost.total_cmp(&b.cost)).unwrap_or(best);
     if std::ptr::eq(cheapest, best) {
@@ -96,7 +102,12 @@ pub fn inputs(domains: &[&str]) -> String {
             inputs.iter().map(|text| text.split_once(mark).map(|(head, rest)| (head, rest.trim()))).collect();
         let heads = heads.filter(|heads| heads.iter().all(|(_, rest)| *rest == heads[0].1))?;
         let first: Vec<&str> = heads.iter().map(|(first, _)| *first).collect();
-        Some(format!("{} (the worst of them): {}", first.join("; "), heads[0].1))
+        // A long list stands in the table.
+        let list = match first[..] {
+            [begin, _, _, _, _, .., end] => format!("{} cases from {begin} to {end}", first.len()),
+            _ => first.join("; "),
+        };
+        Some(format!("{list} (the worst of them): {}", heads[0].1))
     };
     match shared(':').or_else(|| shared(',')) {
         Some(text) if inputs.len() > 1 => text,
@@ -161,6 +172,8 @@ mod tests {
             "studio; sky (the worst of them): levels"
         );
         assert_eq!(inputs(&["n.v in 0..1; relative"]), "n.v in 0..1");
+        let many = ["a: x; deg", "b: x; deg", "c: x; deg", "d: x; deg", "e: x; deg", "f: x; deg"];
+        assert_eq!(inputs(&many), "6 cases from a to f (the worst of them): x");
         assert_eq!(against("all; angle in degrees"), "angle in degrees");
     }
 }

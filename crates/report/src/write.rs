@@ -5,7 +5,7 @@ use crate::Row;
 /// The rows as CSV, with a line of names; a figure that does not apply is empty.
 pub fn csv(rows: &[Row]) -> String {
     let mut text =
-        "term,method,domain,error_max,error_rms,at,flip,not_finite,first_failure,cost_ns,cost_batch_ns,cost_spread,instructions,\
+        "term,method,domain,error_max,error_rms,at,flip,not_finite,first_failure,cost_ns,cost_spread,cost_batch_ns,cost_batch_spread,yardstick_ns,instructions,\
          gpu_ns,gpu,bytes,pareto\n"
             .to_owned();
     for row in rows {
@@ -23,8 +23,10 @@ pub fn csv(rows: &[Row]) -> String {
             count(row.not_finite),
             word(&row.first_failure),
             number(row.cost_ns),
-            number(row.cost_batch_ns),
             number(row.cost_spread),
+            number(row.cost_batch_ns),
+            number(row.cost_batch_spread),
+            number(row.yardstick_ns),
             count(row.instructions),
             number(row.gpu_ns),
             word(&row.gpu),
@@ -80,7 +82,7 @@ mod tests {
     fn text_with_commas_stays_one_field() {
         let row = Row { at: Some("n.v = 0, \"floor\"".into()), error_max: Some(0.5), ..Row::new("d", "ggx", "a, b") };
         let text = csv(std::slice::from_ref(&row));
-        assert_eq!(text.lines().nth(1), Some("d,ggx,\"a, b\",5e-1,,\"n.v = 0, \"\"floor\"\"\",,,,,,,,,,,false"));
+        assert_eq!(text.lines().nth(1), Some("d,ggx,\"a, b\",5e-1,,\"n.v = 0, \"\"floor\"\"\",,,,,,,,,,,,,false"));
         let columns = |line: usize| {
             text.lines().nth(line).map(|line| line.replace("a, b", "").replace("0, ", "").split(',').count())
         };

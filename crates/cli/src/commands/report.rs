@@ -1,10 +1,11 @@
 //! `halfvector report`: speed against error of every method, measured here and now.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use halfvector_report::part::shaders;
-use halfvector_report::{Effort, PARTS, Report, Row, compare, mark_pareto, page, write};
+use halfvector_report::{Effort, PARTS, Part, Report, Row, compare, mark_pareto, page, write};
 
 use crate::failure::{FOUND, Failure};
 use crate::output::{check_place, note, print, write_file};
@@ -34,7 +35,10 @@ pub(crate) struct ReportArgs {
 }
 
 /// How often what seems to be slower is measured again before it is told.
-const CONFIRMATIONS: usize = 2;
+const CONFIRMATIONS: usize = 3;
+
+/// Before it is measured again.
+const CALM: Duration = Duration::from_secs(2);
 
 /// Runs the command.
 pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
@@ -44,6 +48,13 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     let effort = if args.quick { Effort::Quick } else { Effort::Full };
     let parts: Vec<_> =
         PARTS.iter().filter(|part| args.only.is_empty() || args.only.iter().any(|only| only == part.name)).collect();
+    if let (Some(old), Some(path)) = (&old, &args.compare) {
+        comparable(old, path, &parts)?;
+    }
+    std::fs::create_dir_all(&args.output).map_err(|error| {
+        let failure = Failure::input("the folder cannot be made").at(&args.output).because(error);
+        failure.try_to("another folder, or one with other permissions")
+    })?;
     let mut report = Report::begun(effort);
     let start = Instant::now();
     for (done, part) in parts.iter().enumerate() {
@@ -85,15 +96,53 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
         for part in parts.iter().filter(|part| doubtful.contains(part.name)) {
             note(format_args!("{}: measured again, for something seems to be slower", part.name));
             again.rows.retain(|row| row.part != part.name);
-            again.rows.extend((part.rows)(effort).into_iter().map(|row| Row { part: part.name.to_owned(), ..row }));
+            // Whatever made the machine slow may be over by then.
+            std::thread::sleep(CALM);
+            again.rows.extend(measured_apart(part, effort)?);
         }
         compare::confirm(&mut changes, &compare::changes(&old, &again));
     }
     for change in &changes {
         print(&change.to_string())?;
     }
-    note(format_args!("figures that are worse: {}, since {}", changes.len(), old.date));
+    let (common, worse) = (compare::common(&old, &report), changes.len());
+    note(format_args!("figures that are worse: {worse}, of {common} rows that the report of {} has, too", old.date));
     Ok(if changes.is_empty() { 0 } else { FOUND })
+}
+
+/// Whether an old report has any of the parts that are to be measured.
+fn comparable(old: &Report, path: &Path, parts: &[&Part]) -> Result<(), Failure> {
+    if parts.iter().any(|part| old.parts.iter().any(|name| name == part.name)) {
+        return Ok(());
+    }
+    let its = if old.parts.is_empty() { "no part".to_owned() } else { old.parts.join(", ") };
+    let names: Vec<&str> = parts.iter().map(|part| part.name).collect();
+    let failure = Failure::input("the old report has nothing to compare").at(path);
+    Err(failure
+        .because(format_args!("it holds {its}; measured would be {}", names.join(", ")))
+        .try_to("--only a part that both have"))
+}
+
+/// The rows of a part as another process measures them: its code, stack and data lie elsewhere in memory, which changes some
+/// times more than anything that one process sees.
+fn measured_apart(part: &Part, effort: Effort) -> Result<Vec<Row>, Failure> {
+    let failed =
+        |why: &dyn std::fmt::Display| Failure::input(format!("{} could not be measured again", part.name)).because(why);
+    let folder = std::env::temp_dir().join(format!("halfvector-report-again-{}", std::process::id()));
+    let mut command = Command::new(std::env::current_exe().map_err(|error| failed(&error))?);
+    command.args(["report", "--only", part.name, "-o"]).arg(&folder);
+    if effort == Effort::Quick {
+        command.arg("--quick");
+    }
+    let output = command.stdin(Stdio::null()).output().map_err(|error| failed(&error))?;
+    let text = std::fs::read_to_string(folder.join("report.json"));
+    // What is left of a temporary folder does no harm.
+    let _ = std::fs::remove_dir_all(&folder);
+    if !output.status.success() {
+        return Err(failed(&String::from_utf8_lossy(&output.stderr)));
+    }
+    let report = Report::from_json(&text.map_err(|error| failed(&error))?).map_err(|error| failed(&error))?;
+    Ok(report.rows)
 }
 
 /// 40 s, or 2 min 10 s.

@@ -1,5 +1,5 @@
-// A click on a heading sorts its table; another turns the order.
-for (const table of document.querySelectorAll("table")) {
+// A click on a heading sorts its table; another turns the order. Tables in groups stay as they are.
+for (const table of document.querySelectorAll("table:not(.grouped)")) {
   const heads = [...table.tHead.rows[0].cells];
   heads.forEach((head, column) => head.addEventListener("click", () => {
     const turned = head.getAttribute("aria-sort") === "ascending";

@@ -3,7 +3,7 @@
 
 use super::split_sum;
 use crate::error::Errors;
-use crate::timing::measured;
+use crate::timing::{Candidate, measured};
 use crate::{Effort, Row};
 use halfvector_ibl::environment::{
     environment_sample, environment_sample_hermite, irradiance_sh2, lod_geometric, lod_linear, lod_report,
@@ -13,6 +13,7 @@ use halfvector_ibl::{
     BakeOptions, BakedEnvironment, LevelMap, LoadedEnvironment, Prefilter, Quadrature, Quality, Source, bake,
     direction_from_face, sky, studio,
 };
+use rayon::prelude::*;
 
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
@@ -38,8 +39,6 @@ pub(super) fn add(errors: &mut Errors, value: [f32; 3], truth: [f64; 3], mean: [
 /// The levels at random texel centres, by filter, quality and size; cost is a texel of all levels, with irradiance and
 /// harmonics.
 fn levels(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Quadrature) -> Vec<Row> {
-    let domain =
-        format!("{name}: levels of roughness >= 0.2 at texel centres; relative error against a sum over texels");
     let cases: Vec<(String, BakeOptions)> = [
         ("ggx preview", Quality::Preview, 128, Prefilter::Ggx),
         ("ggx preview", Quality::Preview, 256, Prefilter::Ggx),
@@ -58,8 +57,8 @@ fn levels(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Q
     })
     .collect();
     let mut runs: Vec<_> =
-        cases.iter().map(|(_, options)| || f64::from(bake(environment, options).irradiance_sh[0][0])).collect();
-    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+        cases.iter().map(|(_, options)| |_| f64::from(bake(environment, options).irradiance_sh[0][0])).collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
     let times = measured(&mut candidates, effort.pick(1, 5));
     cases
         .iter()
@@ -67,23 +66,27 @@ fn levels(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Q
         .map(|((method, options), time)| {
             let baked = bake(environment, options);
             let mut errors = Errors::default();
-            for k in 0..effort.pick(24, 400) {
-                let level = 1 + k % (baked.radiance.len() - 1);
-                let roughness = f64::from(baked.roughness[level]);
-                if roughness < 0.19 {
-                    continue;
-                }
-                let size = baked.radiance[level].size;
-                let dir = texel_centre(size, k);
-                let value = baked.radiance[level].sample(dir);
-                add(&mut errors, value, truth.prefiltered(dir, roughness), truth.mean(), || {
-                    format!("{roughness} {dir:?}")
-                });
+            let places: Vec<(usize, [f64; 3])> = (0..effort.pick(24, 400))
+                .map(|k| (1 + k % (baked.radiance.len() - 1), k))
+                .filter(|&(level, _)| f64::from(baked.roughness[level]) >= 0.19)
+                .map(|(level, k)| (level, texel_centre(baked.radiance[level].size, k)))
+                .collect();
+            let expected: Vec<[f64; 3]> = places
+                .par_iter()
+                .map(|&(level, dir)| truth.prefiltered(dir, f64::from(baked.roughness[level])))
+                .collect();
+            for (&(level, dir), &expected) in places.iter().zip(&expected) {
+                let at = || format!("{} {dir:?}", baked.roughness[level]);
+                add(&mut errors, baked.radiance[level].sample(dir), expected, truth.mean(), at);
             }
             let texels: usize = baked.radiance.iter().map(|cube| cube.texels.len()).sum();
+            let domain = format!(
+                "{name}, {} px: levels of roughness >= 0.2 at texel centres; relative error against a sum over texels",
+                options.size
+            );
             let mut row = Row::new("prefilter", method, &domain);
             errors.fill(&mut row);
-            (row.cost_batch_ns, row.cost_spread) = (Some(time.seconds * 1e9 / texels as f64), time.spread);
+            row.take_batch_time(time, texels);
             row.bytes = Some(8 * texels as u64);
             row
         })
@@ -120,7 +123,7 @@ fn seen(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Qua
     let points: Vec<([f64; 3], f64)> = (0..effort.pick(60, 1000))
         .map(|k| (direction(k), 0.1 + 0.9 * (0.5 + 0.549_700_478 * k as f64).fract()))
         .collect();
-    let expected: Vec<_> = points.iter().map(|&(dir, roughness)| truth.prefiltered(dir, roughness)).collect();
+    let expected: Vec<_> = points.par_iter().map(|&(dir, roughness)| truth.prefiltered(dir, roughness)).collect();
     let baked = |level_map| bake(environment, &BakeOptions { level_map, irradiance_size: 1, ..BakeOptions::default() });
     let (geometric, linear, report) = (baked(LevelMap::Geometric), baked(LevelMap::Linear), baked(LevelMap::Report));
     let count = |baked: &BakedEnvironment| baked.radiance.len() as f64;
@@ -142,9 +145,9 @@ fn seen(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Qua
     ];
     let mut runs: Vec<_> = methods
         .iter()
-        .map(|(_, _, read)| || points.iter().map(|&(dir, roughness)| f64::from(read(dir, roughness)[0])).sum::<f64>())
+        .map(|(_, _, read)| |_| points.iter().map(|&(dir, roughness)| f64::from(read(dir, roughness)[0])).sum::<f64>())
         .collect();
-    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
     let times = measured(&mut candidates, effort.pick(20, 50));
     methods
         .iter()
@@ -157,7 +160,7 @@ fn seen(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Qua
             }
             let mut row = Row::new("level_map", method, &domain);
             errors.fill(&mut row);
-            (row.cost_ns, row.cost_spread) = (Some(time.seconds * 1e9 / points.len() as f64), time.spread);
+            row.take_time(time, points.len());
             row.bytes = Some(8 * baked.radiance.iter().map(|cube| cube.texels.len() as u64).sum::<u64>());
             row
         })
@@ -169,7 +172,7 @@ fn seen(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Qua
 fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Quadrature) -> Vec<Row> {
     let domain = format!("{name}: irradiance over pi at any direction; relative error against a sum over texels");
     let points: Vec<[f64; 3]> = (0..effort.pick(60, 1000)).map(direction).collect();
-    let expected: Vec<_> = points.iter().map(|&dir| truth.prefiltered(dir, 1.0)).collect();
+    let expected: Vec<_> = points.par_iter().map(|&dir| truth.prefiltered(dir, 1.0)).collect();
     let baked = bake(environment, &BakeOptions { size: 64, ..BakeOptions::default() });
     let report = bake(environment, &BakeOptions { level_map: LevelMap::Report, ..BakeOptions::default() });
     let harmonics = |coefficients: [[f32; 4]; 9], dir: [f64; 3]| irradiance_sh2(coefficients, dir.map(|x| x as f32));
@@ -186,8 +189,8 @@ fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &
         ("last_level", 8 * report.radiance[5].texels.len() as u64, &|dir| report.radiance[5].sample(dir)),
     ];
     let mut runs: Vec<_> =
-        methods.iter().map(|(_, _, read)| || points.iter().map(|&dir| f64::from(read(dir)[0])).sum::<f64>()).collect();
-    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+        methods.iter().map(|(_, _, read)| |_| points.iter().map(|&dir| f64::from(read(dir)[0])).sum::<f64>()).collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
     let times = measured(&mut candidates, effort.pick(20, 50));
     methods
         .iter()
@@ -199,7 +202,7 @@ fn diffuse(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &
             }
             let mut row = Row::new("irradiance", method, &domain);
             errors.fill(&mut row);
-            (row.cost_ns, row.cost_spread) = (Some(time.seconds * 1e9 / points.len() as f64), time.spread);
+            row.take_time(time, points.len());
             row.bytes = Some(*bytes);
             row
         })

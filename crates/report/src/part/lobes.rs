@@ -25,6 +25,7 @@ use halfvector_ibl::occlusion::{horizon_cone, horizon_squared, specular_occlusio
 use halfvector_ibl::{
     BakeOptions, BakedEnvironment, Equirect, LoadedEnvironment, Source, Visibility, bake, dfg, sky, studio,
 };
+use rayon::prelude::*;
 
 /// Rows of the map that stands for the environment: both sides see it.
 const ROWS: usize = 128;
@@ -50,22 +51,15 @@ const F0: [[f64; 3]; 2] = [[1.0, 0.71, 0.29], [0.04; 3]];
 
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for (name, environment) in [("studio", studio()), ("sky", sky())] {
-        let Source::Equirect(map) = &environment.source else { continue };
+    const LOBES: [fn(&Light, usize) -> Vec<Row>; 9] =
+        [specular, coat, sheen, anisotropy, transmission, thin_walled, thin_film, occlusion, horizon];
+    let count = effort.pick(2, 12);
+    let under = |(name, environment): (&'static str, LoadedEnvironment)| {
+        let Source::Equirect(map) = &environment.source else { return Vec::new() };
         let light = Light::new(name, map.area_resampled(2 * ROWS, ROWS));
-        let count = effort.pick(2, 12);
-        rows.extend(specular(&light, count));
-        rows.extend(coat(&light, count));
-        rows.extend(sheen(&light, count));
-        rows.extend(anisotropy(&light, count));
-        rows.extend(transmission(&light, count));
-        rows.extend(thin_walled(&light, count));
-        rows.extend(thin_film(&light, count));
-        rows.extend(occlusion(&light, count));
-        rows.extend(horizon(&light, count));
-    }
-    rows
+        LOBES.par_iter().flat_map_iter(|rows| rows(&light, count)).collect::<Vec<_>>()
+    };
+    [("studio", studio()), ("sky", sky())].into_iter().flat_map(under).collect()
 }
 
 /// An environment: texel by texel, and baked.
@@ -129,7 +123,7 @@ impl Light {
             }
         }
         let domain = format!(
-            "{term} under an environment, {}: {what}; error against the integral over every texel, relative to it or to \
+            "{}: {what}, under this environment; error against the integral over every texel, relative to it or to \
              {FLOOR} of its mean over the domain",
             self.name
         );

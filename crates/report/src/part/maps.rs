@@ -9,7 +9,8 @@ use halfvector_maps::normal::{normal_rotation_fixed, normal_rotation_report, nor
 
 use super::{frames, texels};
 use crate::error::Errors;
-use crate::timing::measured;
+use crate::placed::Columns;
+use crate::timing::{Candidate, SITTINGS, Time, measured};
 use crate::{Effort, Row};
 
 /// normal, method, tilt [deg], mean, rms and largest error [deg].
@@ -34,27 +35,30 @@ fn numbers(count: usize, seed: u32) -> Vec<f32> {
     (0..count).map(|_| next()).collect()
 }
 
-/// Costs of a method [ns]: alone, and in a batch where there is one.
+/// Times of a run over all texels: of calls, and of a batch where there is one.
 struct Cost {
     method: &'static str,
-    single: f64,
-    batch: Option<f64>,
-    spread: Option<f64>,
+    single: Time,
+    batch: Option<Time>,
+    texels: usize,
 }
 
-type Run<'a> = Box<dyn FnMut() -> f64 + 'a>;
+type Run<'a> = Box<dyn FnMut(usize) -> f64 + 'a>;
 
 /// Calls `f` for every texel.
 fn single<'a>(count: usize, f: impl Fn(usize) -> [f32; 3] + 'a) -> Run<'a> {
-    Box::new(move || (0..count).map(|i| f64::from(f(i)[0])).sum())
+    Box::new(move |_| (0..count).map(|i| f64::from(f(i)[0])).sum())
 }
 
+/// What is read of a texel: its normal, the surface's normal and tangent.
+type Texels = Columns<10>;
+
 /// Calls `f` once for all texels.
-fn whole<'a>(count: usize, f: impl Fn([&mut [f32]; 3]) + 'a) -> Run<'a> {
-    let mut out: [Vec<f32>; 3] = std::array::from_fn(|_| vec![0.0; count]);
-    Box::new(move || {
-        f(out.each_mut().map(Vec::as_mut_slice));
-        f64::from(out[0][count / 2])
+fn whole<'a>(texels: &'a [Texels], count: usize, f: impl Fn([&[f32]; 10], [&mut [f32]; 3]) + 'a) -> Run<'a> {
+    let mut out: [Columns<3>; SITTINGS] = std::array::from_fn(|sitting| Columns::written(count, sitting));
+    Box::new(move |sitting| {
+        f(texels[sitting].slices(), out[sitting].slices_mut());
+        f64::from(out[sitting].slices()[0][count / 2])
     })
 }
 
@@ -62,6 +66,7 @@ fn costs(effort: Effort) -> Vec<Cost> {
     let count = effort.pick(1 << 12, 1 << 14);
     let arrays: [Vec<f32>; 10] = std::array::from_fn(|k| numbers(count, k as u32));
     let a = arrays.each_ref().map(Vec::as_slice);
+    let texels: [Texels; SITTINGS] = std::array::from_fn(|sitting| Columns::read(a, sitting));
     let (n_tangent, normal, tangent) = ([a[0], a[1], a[2]], [a[3], a[4], a[5]], [a[6], a[7], a[8], a[9]]);
     let n_at = |i: usize| n_tangent.map(|a| a[i]);
     let normal_at = |i: usize| normal.map(|a| a[i]);
@@ -73,18 +78,21 @@ fn costs(effort: Effort) -> Vec<Cost> {
         }),
         single(count, |i| normal_rotation_report(n_at(i), normal_at(i))),
         single(count, |i| normal_rotation_fixed(n_at(i), normal_at(i))),
-        whole(count, |out| batch::normals_tbn(n_tangent, normal, tangent, out)),
-        whole(count, |out| batch::normals_rotation_report(n_tangent, normal, out)),
-        whole(count, |out| batch::normals_rotation_fixed(n_tangent, normal, out)),
+        whole(&texels, count, |[x, y, z, a, b, c, t, u, v, w], out| {
+            batch::normals_tbn([x, y, z], [a, b, c], [t, u, v, w], out);
+        }),
+        whole(&texels, count, |[x, y, z, a, b, c, ..], out| {
+            batch::normals_rotation_report([x, y, z], [a, b, c], out);
+        }),
+        whole(&texels, count, |[x, y, z, a, b, c, ..], out| batch::normals_rotation_fixed([x, y, z], [a, b, c], out)),
     ];
-    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
     let times = measured(&mut candidates, effort.pick(20, 200));
-    let ns = |i: usize| times[i].seconds * 1e9 / count as f64;
     let cost = |method, single: usize, batch: Option<usize>| Cost {
         method,
-        single: ns(single),
-        batch: batch.map(ns),
-        spread: times[single].spread,
+        single: times[single],
+        batch: batch.map(|batch| times[batch]),
+        texels: count,
     };
     vec![
         cost("tbn", 0, Some(4)),
@@ -107,7 +115,8 @@ fn methods(effort: Effort) -> Vec<Row> {
         if rows.last().is_none_or(|row| row.method != method || row.domain != domain) {
             let mut row = Row::new("normal", method, &domain);
             if let Some(cost) = costs.iter().find(|cost| cost.method == method) {
-                (row.cost_ns, row.cost_batch_ns, row.cost_spread) = (Some(cost.single), cost.batch, cost.spread);
+                row.take_time(cost.single, cost.texels);
+                cost.batch.into_iter().for_each(|time| row.take_batch_time(time, cost.texels));
             }
             rows.push(row);
             tilts = 0.0;
@@ -145,9 +154,9 @@ fn blends(effort: Effort) -> Vec<Row> {
         .collect();
     let mut runs: Vec<_> = BLENDS
         .iter()
-        .map(|(_, blend)| || pairs.iter().map(|&(base, detail)| f64::from(blend(base, detail)[0])).sum::<f64>())
+        .map(|(_, blend)| |_| pairs.iter().map(|&(base, detail)| f64::from(blend(base, detail)[0])).sum::<f64>())
         .collect();
-    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
     let times = measured(&mut candidates, effort.pick(20, 200));
     let measured = BLENDS.iter().zip(times);
     measured
@@ -162,7 +171,7 @@ fn blends(effort: Effort) -> Vec<Row> {
             }
             let mut row = Row::new("normal_blend", name, DOMAIN);
             errors.fill(&mut row);
-            (row.cost_ns, row.cost_spread) = (Some(time.seconds * 1e9 / count as f64), time.spread);
+            row.take_time(time, count);
             row
         })
         .collect()

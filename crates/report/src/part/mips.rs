@@ -2,7 +2,7 @@
 //! level's lobes.
 
 use crate::error::Errors;
-use crate::timing::{Time, measured};
+use crate::timing::{Candidate, Time, measured};
 use crate::{Effort, Row};
 use halfvector_maps::lost_length::{Rule, Spread, lobe_error};
 
@@ -25,8 +25,8 @@ pub fn rows(effort: Effort) -> Vec<Row> {
         Spread { mean_length: 1.0 - 0.5 * t, slope_variance: t }
     };
     let mut runs: Vec<_> =
-        methods.iter().map(|(_, rule)| || (0..256).map(|i| rule(0.2, spread(i))).sum::<f64>()).collect();
-    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as &mut dyn FnMut() -> f64).collect();
+        methods.iter().map(|(_, rule)| |_| (0..256).map(|i| rule(0.2, spread(i))).sum::<f64>()).collect();
+    let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
     let times = measured(&mut candidates, effort.pick(20, 200));
 
     let cells = effort.pick(48, 128);
@@ -42,7 +42,7 @@ pub fn rows(effort: Effort) -> Vec<Row> {
         }
         let mut row = Row::new("normal_mips", name, DOMAIN);
         errors.fill(&mut row);
-        (row.cost_ns, row.cost_spread) = (Some(time.seconds * 1e9 / 256.0), time.spread);
+        row.take_time(time, 256);
         row
     };
     methods.iter().zip(times).map(row).collect()

@@ -9,7 +9,8 @@ use halfvector_brdf::batch::{Kernel, Simd};
 use halfvector_ibl::{BakeOptions, LoadedEnvironment, Source, bake, sky};
 
 use super::shaders::default_surface;
-use crate::timing::{measured, median};
+use crate::placed::Columns;
+use crate::timing::{SITTINGS, measured, median};
 use crate::{Effort, Row};
 
 /// Mitsuba 3's rates on one core, where the project lies.
@@ -65,7 +66,7 @@ fn material_x() -> Option<(u64, f64, u64)> {
 fn lobes(effort: Effort) -> Vec<Row> {
     const WORK: &str = "evaluation of a GGX metal with RGB reflectance, one of many, on one core";
     let mut row = Row::new("peer", "our batches", &format!("{WORK}; measured in this run"));
-    row.cost_batch_ns = Some(our_evaluation(effort));
+    our_evaluation(effort, &mut row);
     let measured = (effort == Effort::Full).then(mitsuba).flatten();
     let domain = match measured {
         Some(_) => format!("{WORK}; measured in this run, LLVM backend"),
@@ -78,8 +79,8 @@ fn lobes(effort: Effort) -> Vec<Row> {
     vec![row, other]
 }
 
-/// Nanoseconds.
-fn our_evaluation(effort: Effort) -> f64 {
+/// Puts the time of one of our evaluations into the row.
+fn our_evaluation(effort: Effort, row: &mut Row) {
     const COUNT: usize = 4096;
     #[derive(Clone, Copy)]
     struct Metal;
@@ -102,14 +103,15 @@ fn our_evaluation(effort: Effort) -> f64 {
             .collect()
     };
     let columns: [Vec<f32>; 10] = std::array::from_fn(column);
-    let inputs = columns.each_ref().map(Vec::as_slice);
-    let mut out: [Vec<f32>; 3] = std::array::from_fn(|_| vec![0.0; COUNT]);
-    let mut run = || {
-        let equal = Simd::best().run(&Metal, inputs, out.each_mut().map(Vec::as_mut_slice));
+    let inputs: [Columns<10>; SITTINGS] =
+        std::array::from_fn(|sitting| Columns::read(columns.each_ref().map(Vec::as_slice), sitting));
+    let mut out: [Columns<3>; SITTINGS] = std::array::from_fn(|sitting| Columns::written(COUNT, sitting));
+    let mut run = |sitting: usize| {
+        let equal = Simd::best().run(&Metal, inputs[sitting].slices(), out[sitting].slices_mut());
         assert!(equal.is_ok(), "columns of one length");
-        f64::from(out[0][COUNT / 2])
+        f64::from(out[sitting].slices()[0][COUNT / 2])
     };
-    measured(&mut [&mut run], effort.pick(200, 2000))[0].seconds * 1e9 / COUNT as f64
+    row.take_batch_time(measured(&mut [&mut run], effort.pick(200, 2000))[0], COUNT);
 }
 
 /// Nanoseconds of one of Mitsuba's evaluations; none where it or its script is not there.

@@ -9,6 +9,7 @@ use halfvector_ibl::{
     Equirect, LoadedEnvironment, Quadrature, Source, Visibility, dfg, direction_from_equirect,
     equirect_texel_solid_angle,
 };
+use rayon::prelude::*;
 
 const N_DOT_V: [f64; 4] = [0.15, 0.3, 0.6, 1.0];
 const ROUGHNESS: [f64; 4] = [0.2, 0.4, 0.7, 1.0];
@@ -27,34 +28,32 @@ pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment) 
     // Both sides see this map: how coarse it is changes what is lit, not what the model loses.
     let map = map.area_resampled(2 * ROWS, ROWS);
     let (truth, cells) = (Quadrature::new(&map), cells(&map));
-    let mut rows = Vec::new();
-    for n_dot_v in N_DOT_V {
-        for roughness in ROUGHNESS {
-            let domain = format!(
-                "{name}: the split sum's model error, n.v {n_dot_v}, roughness {roughness}; exact levels times exact \
-                 (F0 a + b), relative to the integral of light times the lobe"
-            );
-            let [a, b] = dfg(n_dot_v, roughness, Visibility::Correlated);
-            let mut errors = Errors::default();
-            for k in 0..effort.pick(6, 60) {
-                let n = direction(k);
-                let v = view(n, n_dot_v);
-                let reflected = std::array::from_fn(|i| 2.0 * n_dot_v * n[i] - v[i]);
-                let [light_a, light_b] = reflection(&cells, n, v, roughness * roughness);
-                let prefiltered = truth.prefiltered(unit(reflected), roughness);
-                for f0 in F0 {
-                    let split = std::array::from_fn(|c| (prefiltered[c] * (f0[c] * a + b)) as f32);
-                    let exact = std::array::from_fn(|c| f0[c] * light_a[c] + light_b[c]);
-                    let mean = std::array::from_fn(|c| truth.mean()[c] * (f0[c] * a + b));
-                    add(&mut errors, split, exact, mean, || format!("normal {n:.3?}, F0 {f0:?}"));
-                }
+    let row = |(n_dot_v, roughness): (f64, f64)| {
+        let domain = format!(
+            "{name}: the split sum's model error, n.v {n_dot_v}, roughness {roughness}; exact levels times exact \
+             (F0 a + b), relative to the integral of light times the lobe"
+        );
+        let [a, b] = dfg(n_dot_v, roughness, Visibility::Correlated);
+        let mut errors = Errors::default();
+        for k in 0..effort.pick(6, 60) {
+            let n = direction(k);
+            let v = view(n, n_dot_v);
+            let reflected = std::array::from_fn(|i| 2.0 * n_dot_v * n[i] - v[i]);
+            let [light_a, light_b] = reflection(&cells, n, v, roughness * roughness);
+            let prefiltered = truth.prefiltered(unit(reflected), roughness);
+            for f0 in F0 {
+                let split = std::array::from_fn(|c| (prefiltered[c] * (f0[c] * a + b)) as f32);
+                let exact = std::array::from_fn(|c| f0[c] * light_a[c] + light_b[c]);
+                let mean = std::array::from_fn(|c| truth.mean()[c] * (f0[c] * a + b));
+                add(&mut errors, split, exact, mean, || format!("normal {n:.3?}, F0 {f0:?}"));
             }
-            let mut row = Row::new("split_sum", "model", &domain);
-            errors.fill(&mut row);
-            rows.push(row);
         }
-    }
-    rows
+        let mut row = Row::new("split_sum", "model", &domain);
+        errors.fill(&mut row);
+        row
+    };
+    let cases: Vec<(f64, f64)> = N_DOT_V.iter().flat_map(|&v| ROUGHNESS.map(|roughness| (v, roughness))).collect();
+    cases.into_par_iter().map(row).collect()
 }
 
 /// The pieces of a map's texels: direction x, y, z, and radiance times solid angle.

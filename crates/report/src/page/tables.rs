@@ -1,0 +1,240 @@
+//! Rows that no plot shows: a matrix of inputs by methods where there is an error and nothing else, else a table with a line
+//! for each set of inputs above its rows.
+
+use std::fmt::Write;
+
+use super::{cell, code, tags};
+use crate::Row;
+use crate::comparison::{Cost, Unit};
+use crate::plot::escaped;
+use crate::timing::median;
+use crate::words;
+
+/// A card with rows of one term.
+pub(super) fn section(rows: &[&Row], page: &mut String) {
+    page.push_str("<section class=\"card\">");
+    if let Some(title) = finding(rows) {
+        let _ = write!(page, "<h3>{}</h3>", code(&title));
+    }
+    if is_matrix(rows) {
+        matrix(rows, page)
+    } else {
+        plain(rows, page)
+    }
+    page.push_str("</section>\n");
+}
+
+/// The different ones among some texts, in order.
+fn distinct<'a>(texts: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut found: Vec<&str> = Vec::new();
+    texts.for_each(|text| {
+        if !found.contains(&text) {
+            found.push(text);
+        }
+    });
+    found
+}
+
+/// What stands before the last semicolon of a domain.
+fn inputs_of(row: &Row) -> &str {
+    row.domain.rsplit_once(';').map_or(row.domain.as_str(), |(inputs, _)| inputs)
+}
+
+/// Whether the rows have an error alone, for every method in several cases.
+fn is_matrix(rows: &[&Row]) -> bool {
+    let has_error_alone = |row: &&Row| {
+        let figures = [row.flip, row.cost_ns, row.cost_batch_ns, row.gpu_ns];
+        row.error_rms.is_some()
+            && figures.iter().all(Option::is_none)
+            && [row.not_finite, row.instructions, row.bytes].iter().all(Option::is_none)
+    };
+    let methods = distinct(rows.iter().map(|row| row.method.as_str())).len();
+    let cases = distinct(rows.iter().map(|row| row.domain.as_str())).len();
+    rows.iter().all(has_error_alone) && cases > 2 && methods * cases == rows.len()
+}
+
+/// The rms error of each method, which have a column each, in each case.
+pub(super) fn matrix(rows: &[&Row], page: &mut String) {
+    let methods = distinct(rows.iter().map(|row| row.method.as_str()));
+    let domains = distinct(rows.iter().map(|row| row.domain.as_str()));
+    page.push_str("<div class=\"scroll\"><table><thead><tr><th>inputs</th>");
+    for method in &methods {
+        let _ = write!(page, "<th class=\"n\">{}</th>", escaped(method));
+    }
+    page.push_str("</tr></thead><tbody>\n");
+    let (shared, own) = split(&domains.iter().map(|domain| words::inputs(&[domain])).collect::<Vec<_>>());
+    for (domain, own) in domains.iter().zip(own) {
+        let _ = write!(page, "<tr><td>{}</td>", escaped(&own));
+        for method in &methods {
+            let row = rows.iter().find(|row| row.domain == **domain && row.method == **method);
+            page.push_str(&cell(row.and_then(|row| row.error_rms), |x| words::error(x, Unit::of(domain))));
+        }
+        page.push_str("</tr>\n");
+    }
+    page.push_str("</tbody></table></div>\n");
+    let against = words::against(domains.first().copied().unwrap_or_default());
+    let _ = writeln!(page, "<p class=\"small muted\">Rms errors. {}{}.</p>", escaped(&shared), escaped(against));
+}
+
+/// What texts share behind their first colon, and what each has before it; nothing and the whole texts where they differ.
+fn split(texts: &[String]) -> (String, Vec<String>) {
+    let parts: Option<Vec<(&str, &str)>> = texts.iter().map(|text| text.split_once(": ")).collect();
+    match parts {
+        Some(parts) if parts.iter().all(|part| part.1 == parts[0].1) => {
+            (format!("Of all: {}; ", parts[0].1), parts.iter().map(|part| part.0.to_owned()).collect())
+        }
+        _ => (String::new(), texts.to_vec()),
+    }
+}
+
+/// Every figure of each row, under a line with its inputs.
+fn plain(rows: &[&Row], page: &mut String) {
+    let has = |some: fn(&Row) -> bool| rows.iter().any(|row| some(row));
+    let columns = [
+        ("rms error", has(|row| row.error_rms.is_some())),
+        ("largest error", has(|row| row.error_max.is_some())),
+        ("FLIP", has(|row| row.flip.is_some())),
+        ("NaN or inf", has(|row| row.not_finite.is_some())),
+        ("one call", has(|row| row.cost_ns.is_some())),
+        ("one of many", has(|row| row.cost_batch_ns.is_some())),
+        ("memory", has(|row| row.bytes.is_some())),
+        ("instructions", has(|row| row.instructions.is_some())),
+        ("device pixel", has(|row| row.gpu_ns.is_some())),
+    ];
+    page.push_str("<div class=\"scroll\"><table class=\"grouped\"><thead><tr><th>method</th>");
+    let shown = columns.iter().filter(|(_, there)| *there);
+    for (name, _) in shown.clone() {
+        let name = if *name == "one call" && rows[0].term == "picture" { "one picture" } else { name };
+        let _ = write!(page, "<th class=\"n\">{name}</th>");
+    }
+    page.push_str("<th></th></tr></thead><tbody>\n");
+    let across = 2 + shown.count();
+    for inputs in distinct(rows.iter().map(|row| inputs_of(row))) {
+        let _ = writeln!(page, "<tr class=\"case\"><td colspan=\"{across}\">{}</td></tr>", escaped(inputs));
+        for row in rows.iter().filter(|row| inputs_of(row) == inputs) {
+            let _ = write!(page, "<tr><td>{}{}</td>", escaped(&row.method), tags(row));
+            let error = |x| words::error(x, Unit::of(&row.domain));
+            let cells = [
+                cell(row.error_rms, error),
+                cell(row.error_max, error),
+                cell(row.flip, words::number),
+                cell(row.not_finite.map(|x| x as f64), |x| format!("{x:.0}")),
+                cell(row.cost_ns, |x| words::cost(x, Cost::Call)),
+                cell(row.cost_batch_ns, |x| words::cost(x, Cost::Batch)),
+                cell(row.bytes.map(|x| x as f64), |x| words::cost(x, Cost::Bytes)),
+                cell(row.instructions.map(|x| x as f64), |x| format!("{x:.0}")),
+                cell(row.gpu_ns, |x| words::cost(x, Cost::Call)),
+            ];
+            for (cell, _) in cells.iter().zip(&columns).filter(|(_, (_, there))| *there) {
+                page.push_str(cell);
+            }
+            let failure = row.first_failure.as_deref().map(|at| format!("fails first at {}", words::shortened(at)));
+            let notes = [words::against(&row.domain).to_owned(), failure.unwrap_or_default()];
+            let notes: Vec<&str> = notes.iter().map(String::as_str).filter(|note| !note.is_empty()).collect();
+            let _ = writeln!(page, "<td class=\"small\">{}</td></tr>", escaped(&notes.join("; ")));
+        }
+    }
+    page.push_str("</tbody></table></div>\n");
+}
+
+/// What rows without another to weigh them against show.
+fn finding(rows: &[&Row]) -> Option<String> {
+    if rows[0].term == "peer" {
+        return peers(rows);
+    }
+    if rows.iter().all(|row| row.not_finite.is_some()) {
+        let lost = rows.iter().filter(|row| row.not_finite > Some(0)).count();
+        return Some(match lost {
+            0 => "Nothing here gives NaN or infinity".to_owned(),
+            _ => format!("{lost} of {} give NaN or infinity where the right result is a number", rows.len()),
+        });
+    }
+    let methods = distinct(rows.iter().map(|row| row.method.as_str()));
+    let of = |method: &str| -> Vec<f64> {
+        rows.iter().filter(|row| row.method == method).filter_map(|row| row.error_rms).collect()
+    };
+    let unit = Unit::of(&rows[0].domain);
+    if rows.iter().all(|row| row.error_rms.is_none()) {
+        let count = |row: &&&Row| row.instructions;
+        let (least, most) = (rows.iter().min_by_key(count)?, rows.iter().max_by_key(count)?);
+        return Some(format!(
+            "`{}` makes a shader of {} instructions, `{}` one of {}",
+            least.method, least.instructions?, most.method, most.instructions?
+        ));
+    }
+    let said = |method: &&str| {
+        let errors = of(method);
+        let (least, most) = errors.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &x| (a.min(x), b.max(x)));
+        match errors.len() {
+            0 => None,
+            1 => Some(format!("`{method}` errs {}", words::error(most, unit))),
+            n => Some(format!(
+                "`{method}` errs {} (median of {n} cases, {} to {})",
+                words::error(median(errors), unit),
+                words::error(least, unit),
+                words::error(most, unit)
+            )),
+        }
+    };
+    let mut told = methods.clone();
+    if told.len() > 4 {
+        // The least and the most wrong.
+        told.sort_by(|a, b| median(of(a)).total_cmp(&median(of(b))));
+        told = vec![told[0], told[told.len() - 1]];
+    }
+    Some(told.iter().filter_map(said).collect::<Vec<_>>().join("; "))
+}
+
+/// Each of our programs beside the other at the same work.
+fn peers(rows: &[&Row]) -> Option<String> {
+    let work = |row: &Row| row.domain.split(';').next().unwrap_or_default().to_owned();
+    let costs = [Cost::Batch, Cost::Instructions, Cost::Call];
+    let said: Vec<String> = distinct(rows.iter().map(|row| row.method.as_str()))
+        .iter()
+        .filter_map(|method| {
+            let ours = rows.iter().find(|row| row.method == *method)?;
+            let other =
+                rows.iter().skip_while(|row| row.method != *method).skip(1).find(|row| work(row) == work(ours))?;
+            let (cost, [a, b]) = costs.iter().find_map(|cost| Some((cost, [cost.of(ours)?, cost.of(other)?])))?;
+            let what = if cost.is_time() { "of the time" } else { "of the instructions" };
+            Some(format!("`{}` takes {} % {what} of `{}`", ours.method, words::number(100.0 * a / b), other.method))
+        })
+        .collect();
+    (!said.is_empty()).then(|| said.join("; "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(method: &str, domain: &str, error: f64) -> Row {
+        Row { error_rms: Some(error), ..Row::new("normal_frame", method, domain) }
+    }
+
+    fn shown(rows: &[Row]) -> String {
+        let mut page = String::new();
+        section(&rows.iter().collect::<Vec<_>>(), &mut page);
+        page
+    }
+
+    #[test]
+    fn methods_in_several_cases_make_a_matrix() {
+        let cases = ["flat: a mesh; in degrees", "ball: a mesh; in degrees", "bent: a mesh; in degrees"];
+        let rows: Vec<Row> =
+            cases.iter().enumerate().flat_map(|(i, case)| [row("a", case, i as f64), row("b", case, 9.0)]).collect();
+        let page = shown(&rows);
+        assert!(
+            page.contains("<code>a</code> errs 1.0° (median of 3 cases, 0° to 2.0°); <code>b</code> errs"),
+            "{page}"
+        );
+        assert!(page.contains("<tr><td>ball</td>") && page.contains("Of all: a mesh; in degrees."), "{page}");
+        assert!(shown(&rows[1..]).contains("<tr class=\"case\">"), "a case without a method is no matrix");
+    }
+
+    #[test]
+    fn peers_are_set_beside_the_same_work() {
+        let mut rows = vec![Row::new("peer", "ours", "a bake; now"), Row::new("peer", "theirs", "a bake; recorded")];
+        (rows[0].cost_ns, rows[1].cost_ns) = (Some(2.0), Some(8.0));
+        assert!(shown(&rows).contains("<code>ours</code> takes 25 % of the time of <code>theirs</code>"));
+    }
+}
