@@ -210,6 +210,7 @@ impl Editor {
     pub fn show(&mut self, ui: &mut egui::Ui) {
         self.hear();
         self.panes.problems.hear(&self.session);
+        self.session.set_notices(self.panes.problems.notices());
         let heat = self.panes.cost.hear(&self.session, self.panes.viewport.stage());
         self.session.set_heat(heat);
         self.guard_close();
@@ -266,7 +267,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
         match pane {
             Pane::Canvas => panes.canvas.show(ui, session, &mut panes.thumbnails, actions),
             Pane::Viewport => panes.viewport.show(ui, session, &mut panes.thumbnails, actions),
-            Pane::Inspector => panes.inspector.show(ui, session, panes.problems.notices(), actions),
+            Pane::Inspector => panes.inspector.show(ui, session, actions),
             Pane::Code => panes.code.show(ui, session, panes.viewport.stage(), actions),
             Pane::Functions => panes.functions.show(ui, session, actions),
             Pane::Problems => panes.problems.show(ui, session, actions),

@@ -18,6 +18,7 @@ mod library;
 mod paint;
 mod palette;
 mod panes;
+mod pictures;
 mod session;
 mod sockets;
 mod stage;

@@ -32,6 +32,8 @@ pub struct Session {
     selection: BTreeSet<NodeId>,
     /// Of the revision that it holds.
     problems: Vec<Problem>,
+    /// What is wrong with the pictures that the document names, as far as they were looked at.
+    notices: Arc<Vec<Problem>>,
     /// How costly nodes are; empty while the graph is not coloured by it.
     heat: BTreeMap<NodeId, f32>,
     /// Of the graph that is worked on.
@@ -79,6 +81,7 @@ impl Session {
             file,
             selection: BTreeSet::new(),
             heat: BTreeMap::new(),
+            notices: Arc::default(),
             problems: check(&document, Library::standard()),
             library: Library::standard().clone(),
             sound: BTreeMap::new(),
@@ -157,9 +160,11 @@ impl Session {
         self.graph().value(input)
     }
 
-    /// Whether some node decodes a normal map.
-    pub fn uses_normal_maps(&self) -> bool {
-        graphs(&self.document).any(|graph| graph.nodes.values().any(|node| node.node == "textures/normal_map"))
+    /// Whether some node names a picture.
+    pub(crate) fn names_pictures(&self) -> bool {
+        let mut values =
+            graphs(&self.document).flat_map(|graph| graph.nodes.values()).flat_map(|node| node.values.values());
+        values.any(|value| matches!(value, Value::Image(_)))
     }
 
     /// The file of the document, if it has one.
@@ -185,6 +190,23 @@ impl Session {
     /// All problems of the document.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
+    }
+
+    /// The problems of the document and of its pictures.
+    pub(crate) fn all_problems(&self) -> impl Iterator<Item = &Problem> {
+        self.problems.iter().chain(self.notices.iter())
+    }
+
+    /// What is wrong with its pictures besides; the same `Arc` while it stays the same.
+    pub(crate) fn notices(&self) -> &Arc<Vec<Problem>> {
+        &self.notices
+    }
+
+    /// Says what is wrong with the pictures.
+    pub(crate) fn set_notices(&mut self, notices: &Arc<Vec<Problem>>) {
+        if !Arc::ptr_eq(&self.notices, notices) {
+            self.notices = notices.clone();
+        }
     }
 
     /// How costly each node is compared with the costliest, 0 to 1; empty while the graph is not to be coloured by it.

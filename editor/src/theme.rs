@@ -22,11 +22,11 @@ pub(crate) fn socket_color(ty: SocketType) -> Color32 {
 pub(crate) fn category_color(category: &str) -> Color32 {
     match category {
         "surface" => Color32::from_rgb(0x3f, 0x6f, 0x3a),
-        "texture" => Color32::from_rgb(0x7a, 0x42, 0x42),
+        "textures" => Color32::from_rgb(0x7a, 0x42, 0x42),
         "procedural" => Color32::from_rgb(0x7a, 0x5a, 0x2e),
         "color" => Color32::from_rgb(0x78, 0x6a, 0x2c),
         "coordinates" => Color32::from_rgb(0x2e, 0x64, 0x74),
-        "geometry" | "space" => Color32::from_rgb(0x2f, 0x6b, 0x62),
+        "geometry" | "spaces" => Color32::from_rgb(0x2f, 0x6b, 0x62),
         "vector" => Color32::from_rgb(0x4a, 0x56, 0x86),
         _ => Color32::from_rgb(0x4c, 0x54, 0x62),
     }

@@ -45,6 +45,8 @@ pub struct ImageError {
     pub material: String,
     /// The node's label, or its id without one.
     pub node: String,
+    /// Where the node stands: its id, behind those of the groups that it lies in, as `flatten` writes it.
+    pub path: String,
     /// What went wrong.
     pub fault: ImageFault,
 }
@@ -79,12 +81,21 @@ struct Wanted {
     spaces: BTreeSet<ColorSpace>,
     material: String,
     node: String,
+    path: String,
 }
 
 impl ImageStore {
-    /// Loads what the materials refer to and is not here yet. Nodes that no surface reads from are passed over. When
-    /// several images fail the first in order of materials and node ids is reported.
+    /// Loads what the materials refer to and is not here yet. Nodes that no surface reads from are passed over.
+    ///
+    /// # Errors
+    /// When images fail, the first one of [`load_all`](Self::load_all).
     pub fn load(&mut self, materials: &[SceneMaterial]) -> Result<(), ImageError> {
+        self.load_all(materials).into_iter().next().map_or(Ok(()), Err)
+    }
+
+    /// Loads as [`load`](Self::load) does, and returns why each image that fails does: first the glTF files that cannot be
+    /// opened, then the images, both in order of materials and node ids. The others are here then.
+    pub fn load_all(&mut self, materials: &[SceneMaterial]) -> Vec<ImageError> {
         let mut places: HashMap<ImageKey, usize> = HashMap::new();
         let mut wanted: Vec<Wanted> = Vec::new();
         for material in materials {
@@ -95,24 +106,34 @@ impl ImageStore {
                     continue;
                 }
                 let place = *places.entry(key.clone()).or_insert_with(|| {
-                    let (material, node) = (material.document.name.clone(), label.unwrap_or(node).to_owned());
-                    wanted.push(Wanted { key, spaces: BTreeSet::new(), material, node });
+                    wanted.push(Wanted {
+                        key,
+                        spaces: BTreeSet::new(),
+                        material: material.document.name.clone(),
+                        node: label.unwrap_or(node).to_owned(),
+                        path: node.to_owned(),
+                    });
                     wanted.len() - 1
                 });
                 wanted[place].spaces.insert(image.color_space);
             }
         }
-        let mut assets: BTreeMap<&Path, Asset> = BTreeMap::new();
+        let mut faults = Vec::new();
+        let mut assets: BTreeMap<&Path, Option<Asset>> = BTreeMap::new();
         for want in wanted.iter().filter(|want| want.key.in_gltf.is_some()) {
             let path = want.key.path.as_path();
-            if !assets.contains_key(path) {
-                assets.insert(path, Asset::open(path).map_err(|error| want.failed(ImageFault::Gltf(error.into())))?);
-            }
+            assets.entry(path).or_insert_with(|| {
+                let opened = Asset::open(path).map_err(|error| want.failed(ImageFault::Gltf(error.into())));
+                opened.map_err(|error| faults.push(error)).ok()
+            });
         }
-        let read: Result<Vec<Vec<Read>>, ImageError> = wanted.par_iter().map(|want| read(want, &assets)).collect();
+        let read: Vec<Result<Vec<Read>, ImageError>> = wanted.par_iter().map(|want| read(want, &assets)).collect();
         let mut files_by_note: BTreeMap<String, Vec<String>> = BTreeMap::new();
-        for (want, read) in wanted.iter().zip(read?) {
-            for Read { spaces, noted } in read {
+        for (want, read) in wanted.iter().zip(read) {
+            for Read { spaces, noted } in read.unwrap_or_else(|error| {
+                faults.push(error);
+                Vec::new()
+            }) {
                 for note in noted.notes {
                     files_by_note.entry(note).or_default().push(want.file());
                 }
@@ -128,7 +149,7 @@ impl ImageStore {
             [file, others @ ..] => format!("{file} and {} more: {note}", others.len()),
             [] => note.clone(),
         }));
-        Ok(())
+        faults
     }
 
     /// The index of the picture that a document in `directory` means. Whether it is read as sRGB or linear makes a
@@ -161,7 +182,7 @@ struct Read {
 
 impl Wanted {
     fn failed(&self, fault: ImageFault) -> ImageError {
-        ImageError { material: self.material.clone(), node: self.node.clone(), fault }
+        ImageError { material: self.material.clone(), node: self.node.clone(), path: self.path.clone(), fault }
     }
 
     /// The file, with `#N` for an image within a glTF file.
@@ -171,14 +192,16 @@ impl Wanted {
     }
 }
 
-fn read(want: &Wanted, assets: &BTreeMap<&Path, Asset>) -> Result<Vec<Read>, ImageError> {
+fn read(want: &Wanted, assets: &BTreeMap<&Path, Option<Asset>>) -> Result<Vec<Read>, ImageError> {
     let failed = |source: halfvector_maps::DecodeError| {
         want.failed(ImageFault::Decode { file: want.file(), source: source.into() })
     };
     let decoded = |bytes: &[u8]| halfvector_maps::decode(bytes, Limits::default()).map_err(failed);
     let path = &want.key.path;
     let decoded = match (want.key.in_gltf, assets.get(path.as_path())) {
-        (Some(number), Some(asset)) => {
+        // That the file could not be opened is told already.
+        (Some(_), Some(None)) => return Ok(Vec::new()),
+        (Some(number), Some(Some(asset))) => {
             let bytes = asset.image_bytes(number).map_err(|error| want.failed(ImageFault::Gltf(error.into())))?;
             decoded(&bytes)?
         }

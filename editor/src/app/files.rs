@@ -204,7 +204,10 @@ impl Editor {
         match halfvector_graph::file::from_json(text) {
             Ok(document) => {
                 let file = lost.record.file.clone();
-                self.files.order(Order::Release);
+                self.files.order(match file.clone() {
+                    Some(path) => Order::Watch { path, known: lost.record.known },
+                    None => Order::Release,
+                });
                 self.replace_session(Session::recovered(document, file));
                 // First the record of this window, then the old one goes: at no time is there none.
                 self.keep();

@@ -127,17 +127,16 @@ pub(crate) const EVERYWHERE: &[Hint] = &[
     Hint { keys: "Ctrl +, Ctrl -, Ctrl 0", what: "Larger, smaller, usual size of everything" },
 ];
 
-/// The commands whose keys were pressed, in the order of the table.
+/// The commands whose keys were pressed, in the order of the table; one that was pressed twice since the last frame, twice.
 pub(crate) fn pressed(context: &egui::Context) -> Vec<Command> {
     let writes = context.text_edit_focused();
     context.input_mut(|input| {
         let mut pressed = Vec::new();
         for shortcut in SHORTCUTS.iter().filter(|shortcut| shortcut.while_writing || !writes) {
             // All are consumed, so that none does two things.
-            let hits = shortcut.keys.iter().filter(|keys| input.consume_shortcut(keys)).count();
-            if hits > 0 {
-                pressed.push(shortcut.command);
-            }
+            let hits = |keys: &KeyboardShortcut| input.count_and_consume_key(keys.modifiers, keys.logical_key);
+            let hits = shortcut.keys.iter().map(hits).sum();
+            pressed.extend(std::iter::repeat_n(shortcut.command, hits));
         }
         pressed
     })

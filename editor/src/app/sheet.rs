@@ -16,7 +16,8 @@ const GRAPH: &[Hint] = &[
     Hint { keys: "Tab, Shift+Tab", what: "Next or previous node, without the pointer on the graph" },
     Hint { keys: "Arrow keys", what: "Move the selection by the grid" },
     Hint { keys: "Ctrl+A, Ctrl+D", what: "Select all, duplicate" },
-    Hint { keys: "Delete, Ctrl+Delete", what: "Remove; remove and join what it was between" },
+    Hint { keys: "Ctrl+C, Ctrl+X, Ctrl+V", what: "Copy, cut, paste, also between windows" },
+    Hint { keys: "Delete or X, Ctrl+Delete", what: "Remove; remove and join what it was between" },
     Hint { keys: "Ctrl+G, Ctrl+Shift+G", what: "Make a group, take it apart" },
     Hint { keys: "Double click, Esc", what: "Open a group, leave it" },
     Hint { keys: "Ctrl+J", what: "Frame the selection" },
@@ -28,7 +29,8 @@ const VIEWPORT: &[Hint] = &[
     Hint { keys: "Drag", what: "Turn" },
     Hint { keys: "Right or middle drag", what: "Move" },
     Hint { keys: "Wheel or pinch", what: "Nearer or farther" },
-    Hint { keys: "Double click", what: "As at first" },
+    Hint { keys: "Double click or F", what: "As at first" },
+    Hint { keys: "Arrow keys, +, -", what: "Turn, nearer, farther; with the focus on the divider: move it" },
 ];
 
 const FUNCTIONS: &[Hint] = &[

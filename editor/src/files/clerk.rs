@@ -37,6 +37,13 @@ pub(crate) enum Order {
     },
     /// No file is open any more.
     Release,
+    /// A file is open whose text the window does not have: that of recovered work.
+    Watch {
+        /// The file.
+        path: PathBuf,
+        /// Of the text that the work began with; none takes what stands there now for it.
+        known: Option<u64>,
+    },
     /// The change of the open file that was told is known to the user.
     Accept,
     /// Replace this window's record; the document is what its file does not hold.
@@ -177,6 +184,12 @@ impl Watched {
         let hash = hash(bytes);
         Watched { stamp: stamp(&path), real: real(&path), path, known: hash, seen: hash }
     }
+
+    /// A file that is looked at as soon as there is time: it may have been changed since.
+    fn since(path: PathBuf, known: Option<u64>) -> Watched {
+        let known = known.or_else(|| std::fs::read(&path).ok().map(|bytes| hash(&bytes))).unwrap_or_default();
+        Watched { stamp: None, real: real(&path), path, known, seen: known }
+    }
 }
 
 /// The one name that a file has.
@@ -267,6 +280,7 @@ impl Room {
                 self.tell(Report::Saved(path, document, saved));
             }
             Order::Release => self.watched = None,
+            Order::Watch { path, known } => self.watched = Some(Watched::since(path, known)),
             Order::Accept => {
                 if let Some(watched) = &mut self.watched {
                     watched.known = watched.seen;
@@ -300,7 +314,10 @@ impl Room {
 
     fn keep(&self, name: &str, file: Option<PathBuf>, unsaved: Option<&Document>) {
         let Some(desk) = &self.desk else { return };
-        let record = Record::now(name, file.as_deref().map(real), unsaved.map(halfvector_graph::file::to_json));
+        let file = file.as_deref().map(real);
+        let known = self.watched.as_ref().filter(|watched| file.as_ref() == Some(&watched.real));
+        let known = known.map(|watched| watched.known);
+        let record = Record::now(name, file, known, unsaved.map(halfvector_graph::file::to_json));
         if let Err(error) = desk.write(&record) {
             self.tell(Report::Failed(format!("unsaved work could not be kept for a crash: {error}")));
         }

@@ -21,6 +21,9 @@ pub(crate) struct Record {
     pub(crate) name: String,
     /// The file that is open, absolute.
     pub(crate) file: Option<PathBuf>,
+    /// Fingerprint of the text that the window knows of the file: with another one others have changed it since.
+    #[serde(default)]
+    pub(crate) known: Option<u64>,
     /// When this was written: seconds since 1970.
     pub(crate) written: u64,
     /// The document as text, when the file does not hold it.
@@ -29,9 +32,9 @@ pub(crate) struct Record {
 
 impl Record {
     /// A record of this process, written now.
-    pub(crate) fn now(name: &str, file: Option<PathBuf>, unsaved: Option<String>) -> Record {
+    pub(crate) fn now(name: &str, file: Option<PathBuf>, known: Option<u64>, unsaved: Option<String>) -> Record {
         let written = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs();
-        Record { process: std::process::id(), name: name.to_owned(), file, written, unsaved }
+        Record { process: std::process::id(), name: name.to_owned(), file, known, written, unsaved }
     }
 
     /// How long ago it was written, for people.

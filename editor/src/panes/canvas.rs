@@ -1,10 +1,11 @@
 //! The graph: cards, wires and what a person does with them.
 //!
 //! `sheet` lays the document out, `view` says what part of it is seen, `hit` what lies under the pointer, `draw` paints. What a
-//! person does goes through `gesture` (the pointer), `keys` and `menus`, and becomes edits (`edits`, `fit`, `arrange`,
+//! person does goes through `gesture` (the pointer), `keys`, `menus` and `adding` (the palette), and becomes edits (`edits`, `fit`, `arrange`,
 //! `guides`). The document is never changed here: what is half done, such as a drag, is kept until it is done and then
 //! returned as one action.
 
+mod adding;
 mod arrange;
 mod draw;
 mod edits;
@@ -17,6 +18,7 @@ mod keys;
 mod menus;
 mod minimap;
 mod notes;
+mod rows;
 mod sheet;
 mod tips;
 mod view;
@@ -24,21 +26,19 @@ mod wire;
 
 use std::collections::BTreeSet;
 
-use eframe::egui::{self, Id, Pos2, Rect, Sense, pos2, vec2};
-use halfvector_graph::document::{Graph, Link, NodeId, SocketRef, group_of};
+use eframe::egui::{self, Id, Pos2, Rect, Sense, Vec2, pos2, vec2};
+use halfvector_graph::document::{Graph, NodeId, SocketRef};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::library::Library;
-use halfvector_graph::node_def::NodeDef;
 
 use crate::action::Action;
-use crate::functions;
-use crate::palette::{self, Outcome, Palette};
+use crate::palette::Palette;
 use crate::session::Session;
 use crate::theme;
 use crate::thumbnails::Thumbnails;
+use adding::Purpose;
 use draw::{Brush, Detail};
 use fields::Editing;
-use fit::Loose;
 use gesture::Gesture;
 use hit::Hit;
 use menus::Meant;
@@ -56,6 +56,8 @@ pub(crate) struct Canvas {
     level: (u64, Vec<String>),
     /// None until it was drawn once.
     view: Option<View>,
+    /// The view that showed everything, and the size of the pane that it did so in: until it is moved it goes on to.
+    fitted: Option<(View, Vec2)>,
     /// Nodes that are to be brought into view.
     wanted: Vec<NodeId>,
     sheet: Option<Sheet>,
@@ -83,17 +85,6 @@ struct Unfolded {
     inputs: BTreeSet<NodeId>,
     /// A picture of what they give.
     pictures: BTreeSet<NodeId>,
-}
-
-/// Where a node of the palette goes.
-#[derive(Clone, Debug, Default)]
-struct Purpose {
-    /// Its place on the canvas.
-    at: Pos2,
-    /// The wire that it is for.
-    loose: Option<Loose>,
-    /// The wire that it is put into.
-    into: Option<Link>,
 }
 
 /// What the parts of the canvas work on in a frame.
@@ -245,7 +236,8 @@ impl Canvas {
         self.paint_map(&brush, &sheet);
         self.bar(ui, bar, &mut desk, &sheet);
         self.fields(ui, &mut desk, &sheet);
-        if is_over && !map && self.gesture.is_idle() && !self.palette.is_open() && self.editing.is_none() {
+        let is_asked = self.gesture.is_idle() && !self.palette.is_open() && self.editing.is_none();
+        if is_over && !map && is_asked && self.words.is_none() {
             tips::show(&response, &sheet, desk.lens, hovered);
         }
         self.menu(ui, &response, &mut desk, &sheet, hovered);
@@ -263,18 +255,28 @@ impl Canvas {
             let room = View::showing(rect, pane).zoom;
             return View { center: rect.center(), zoom: view.zoom.max(READABLE).min(room.max(READABLE)) };
         }
-        self.view.unwrap_or_else(|| match Sheet::bounds(sheet.cards.iter()) {
-            Some(rect) => View::showing(rect, pane.with_min_y(pane.top() + 28.0)),
-            None => View::default(),
-        })
+        match (self.view, self.fitted) {
+            (Some(view), Some((fitted, size))) if view == fitted && size != pane.size() => self.whole(sheet, pane),
+            (Some(view), _) => view,
+            (None, _) => self.whole(sheet, pane),
+        }
+    }
+
+    /// The view that shows all cards.
+    fn whole(&mut self, sheet: &Sheet, pane: Rect) -> View {
+        let bounds = Sheet::bounds(sheet.cards.iter());
+        let view = bounds.map_or_else(View::default, |rect| View::showing(rect, below_bar(pane)));
+        self.fitted = Some((view, pane.size()));
+        view
     }
 
     /// Shows some cards whole, or all when there are none.
     fn fit(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, only_selected: bool) {
         let selected = Sheet::bounds(sheet.cards.iter().filter(|card| only_selected && card.is_selected));
-        if let Some(rect) = selected.or_else(|| Sheet::bounds(sheet.cards.iter())) {
-            desk.lens.view = View::showing(rect, desk.lens.pane.with_min_y(desk.lens.pane.top() + 28.0));
-        }
+        desk.lens.view = match selected {
+            Some(rect) => View::showing(rect, below_bar(desk.lens.pane)),
+            None => self.whole(sheet, desk.lens.pane),
+        };
     }
 
     fn paint(&self, brush: &Brush<'_>, sheet: &Sheet, hovered: Hit) {
@@ -365,75 +367,6 @@ impl Canvas {
         }
     }
 
-    /// Opens the palette.
-    fn open_palette(&mut self, desk: &Desk<'_>, at: Pos2, purpose: Purpose) {
-        let named = |purpose: &Purpose| match (&purpose.loose, &purpose.into) {
-            (Some(Loose::Output(socket, _)), _) => Some(format!("Nodes that take what {} gives", socket)),
-            (Some(Loose::Input(socket, _)), _) => Some(format!("Nodes that give what {} takes", socket)),
-            (None, Some(_)) => Some("Nodes that can stand in this wire".to_owned()),
-            (None, None) => None,
-        };
-        let types = halfvector_graph::resolve::resolve_types(desk.graph, desk.library);
-        let ends = purpose.into.as_ref().and_then(|link| {
-            let given = types.get(&link.from.node)?.output(&link.from.socket)?;
-            Some((given, types.get(&link.to.node)?.input(&link.to.socket)?))
-        });
-        let path = desk.session.path();
-        // A group cannot hold itself.
-        let is_around = |def: &NodeDef| group_of(&def.id).is_some_and(|id| path.iter().any(|outer| outer == id));
-        let offers = |def: &NodeDef| match (&purpose.loose, ends) {
-            _ if is_around(def) => false,
-            (Some(loose), _) => loose.socket_of(def).is_some(),
-            (None, Some((given, wanted))) => fit::through(def, given, wanted).is_some(),
-            (None, None) => true,
-        };
-        self.palette.open(at, desk.library, named(&purpose), offers);
-        self.purpose = purpose;
-    }
-
-    /// Shows the palette and adds the node that is chosen.
-    fn choose(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) {
-        let canvas = Id::new("graph canvas");
-        match self.palette.show(ui, ui.ctx().content_rect(), desk.library) {
-            Outcome::None => return,
-            Outcome::Closed => {}
-            Outcome::Chosen(definition) => self.add(desk, sheet, &definition),
-        }
-        ui.memory_mut(|memory| memory.request_focus(canvas));
-    }
-
-    fn add(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, definition: &str) {
-        if definition == palette::NEW_FUNCTION {
-            let at = std::mem::take(&mut self.purpose).at;
-            self.add_function(desk, sheet, at);
-            return;
-        }
-        let Some(def) = desk.library.get(definition) else { return };
-        let purpose = std::mem::take(&mut self.purpose);
-        let at = if self.keeps_off_grid { purpose.at } else { view::to_grid(purpose.at) };
-        let mut arrival = edits::add(desk.session, definition, at.into());
-        let id = arrival.ids[0].clone();
-        if let Some(loose) = &purpose.loose
-            && let Some(socket) = loose.socket_of(def)
-        {
-            arrival.edits.push(desk.session.here(Edit::AddLink { link: loose.link(SocketRef::new(&id, socket)) }));
-        }
-        if let Some(link) = &purpose.into {
-            edits::put_into(desk.session, &mut arrival, link);
-        }
-        desk.arrive(sheet, format!("Add {}", def.label), arrival);
-    }
-
-    /// Adds a function of the document with a node of it, and brings its text to the front.
-    fn add_function(&self, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
-        let at = if self.keeps_off_grid { at } else { view::to_grid(at) };
-        let (id, function) = functions::new(desk.session.document());
-        let mut arrival = edits::add(desk.session, &format!("custom/{id}"), at.into());
-        arrival.edits.insert(0, function);
-        desk.arrive(sheet, "New function", arrival);
-        desk.actions.push(Action::EditFunction(id));
-    }
-
     /// Says at a point of the screen why something was not done.
     fn say(&mut self, ui: &egui::Ui, at: Pos2, text: String) {
         self.words = Some((text, at, ui.input(|input| input.time) + 4.0));
@@ -502,6 +435,11 @@ impl Canvas {
             desk.make("Arrange nodes", Edit::Many(edits));
         }
     }
+}
+
+/// The part of the pane that the buttons leave free.
+fn below_bar(pane: Rect) -> Rect {
+    pane.with_min_y(pane.top() + 28.0)
 }
 
 /// Shows what nodes give, on the cards that are unfolded for it.

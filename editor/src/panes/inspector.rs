@@ -18,7 +18,6 @@ mod several;
 mod thumbnail;
 
 use eframe::egui;
-use halfvector_graph::check::Problem;
 
 use halfvector_graph::edit::Edit;
 
@@ -45,14 +44,7 @@ impl Inspector {
     }
 
     /// Draws what there is to be known and set of the selection.
-    /// `notices` are problems beyond those of the document.
-    pub(crate) fn show(
-        &mut self,
-        ui: &mut egui::Ui,
-        session: &Session,
-        notices: &[Problem],
-        actions: &mut Vec<Action>,
-    ) {
+    pub(crate) fn show(&mut self, ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
         self.thumbnails.hear(ui.ctx());
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
@@ -64,7 +56,7 @@ impl Inspector {
                     },
                     (Some(id), None) => {
                         let before = actions.len();
-                        node::show(ui, session, id, notices, &mut self.thumbnails, actions);
+                        node::show(ui, session, id, &mut self.thumbnails, actions);
                         actions[before..].iter_mut().for_each(|action| at_work(session, action));
                     }
                     _ => {

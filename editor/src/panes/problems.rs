@@ -1,5 +1,5 @@
-//! All problems of the material: what its document says, normal maps that run the other way, and on demand where f32 computes
-//! something else than exact arithmetic. A click shows the node.
+//! All problems of the material: what its document says, pictures that cannot be read, normal maps that run the other way, and
+//! on demand where f32 computes something else than exact arithmetic. A click shows the node.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,11 +8,12 @@ use eframe::egui::{self, Button, TextEdit};
 use halfvector_graph::check::{Problem, Severity};
 use halfvector_graph::document::Document;
 use halfvector_reference::{Finding, Precision, Stability, stability};
-use halfvector_scene::{ImageStore, Scene, SceneMaterial, normal_map_problems};
+use halfvector_scene::{Scene, SceneMaterial};
 
 use crate::action::{Action, found};
 use crate::functions;
 use crate::panes::inspector::named_text;
+use crate::pictures::Pictures;
 use crate::session::Session;
 use crate::theme;
 use crate::work::Worker;
@@ -41,7 +42,7 @@ pub(crate) struct Problems {
     worker: Option<Worker<Job, Found>>,
     /// The revision whose pictures were looked at, or are.
     asked: Option<u64>,
-    notices: Vec<Problem>,
+    notices: Arc<Vec<Problem>>,
     /// Of the revision that it holds.
     stability: Option<(u64, Result<Stability, String>)>,
     filter: String,
@@ -52,11 +53,12 @@ pub(crate) struct Problems {
 impl Problems {
     /// Starts the thread that looks at pictures and at precision.
     pub(crate) fn new(context: &egui::Context) -> Problems {
-        let worker = Worker::start("problems", context, |job: Job, _| Some(look(&job)));
+        let mut pictures = Pictures::default();
+        let worker = Worker::start("problems", context, move |job: Job, _| Some(look(&job, &mut pictures)));
         Problems {
             worker: worker.ok(),
             asked: None,
-            notices: Vec::new(),
+            notices: Arc::default(),
             stability: None,
             filter: String::new(),
             errors: true,
@@ -69,31 +71,33 @@ impl Problems {
         self.worker.as_ref().is_none_or(|worker| !worker.is_busy())
     }
 
-    /// What was found in the pictures of normal maps.
-    pub(crate) fn notices(&self) -> &[Problem] {
+    /// What was found in the pictures that the material names.
+    pub(crate) fn notices(&self) -> &Arc<Vec<Problem>> {
         &self.notices
     }
 
     /// How many problems there are.
     pub(crate) fn count(&self, session: &Session) -> usize {
         let unstable = self.stability.as_ref().and_then(|(_, found)| found.as_ref().ok());
-        session.problems().len() + self.notices.len() + unstable.map_or(0, |found| found.unstable.len())
+        session.all_problems().count() + unstable.map_or(0, |found| found.unstable.len())
     }
 
-    /// Takes what was found, and has the pictures of normal maps looked at after a change.
+    /// Takes what was found, and has the pictures looked at after a change.
     pub(crate) fn hear(&mut self, session: &Session) {
         while let Some(found) = self.worker.as_ref().and_then(Worker::poll) {
-            self.notices = found.problems;
+            if self.asked == Some(found.revision) && *self.notices != found.problems {
+                self.notices = Arc::new(found.problems);
+            }
             if let Some(stability) = found.stability {
                 self.stability = Some((found.revision, stability));
             }
         }
         if self.asked != Some(session.revision()) {
             self.asked = Some(session.revision());
-            if session.uses_normal_maps() {
+            if session.names_pictures() {
                 self.submit(session, false);
             } else {
-                self.notices.clear();
+                self.notices = Arc::default();
             }
         }
     }
@@ -110,7 +114,7 @@ impl Problems {
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
             self.bar(ui, session);
             egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                let all: Vec<&Problem> = session.problems().iter().chain(&self.notices).collect();
+                let all: Vec<&Problem> = session.all_problems().collect();
                 let shown: Vec<&&Problem> = all.iter().filter(|problem| self.passes(problem)).collect();
                 if all.is_empty() {
                     ui.colored_label(theme::GOOD, "No problems");
@@ -127,7 +131,7 @@ impl Problems {
 
     fn bar(&mut self, ui: &mut egui::Ui, session: &Session) {
         ui.horizontal(|ui| {
-            ui.toggle_value(&mut self.errors, "Errors").on_hover_text("What keeps a shader from being made");
+            ui.toggle_value(&mut self.errors, "Errors").on_hover_text("What keeps the material from being drawn");
             ui.toggle_value(&mut self.warnings, "Warnings").on_hover_text("What may not be meant");
             let field = TextEdit::singleline(&mut self.filter).hint_text("Filter").desired_width(140.0);
             let response = ui.add(field).on_hover_text("Only problems with these words");
@@ -185,14 +189,12 @@ impl Problems {
     }
 }
 
-fn look(job: &Job) -> Found {
+fn look(job: &Job, pictures: &mut Pictures) -> Found {
     let material = SceneMaterial { document: (*job.document).clone(), directory: job.directory.clone() };
-    let mut images = ImageStore::default();
-    // A picture that cannot be read is told by the picture of the material.
-    let loaded = images.load(std::slice::from_ref(&material));
-    let problems = if loaded.is_ok() { normal_map_problems(&material, &images) } else { Vec::new() };
+    pictures.load(&material);
+    let problems = pictures.problems(&material);
     let found = job.stability.then(|| {
-        loaded.map_err(|error| error.to_string())?;
+        let images = pictures.whole().map_err(ToString::to_string)?.clone();
         let scene = Scene { materials: vec![material], images, ..Scene::default() };
         stability(&scene, 0, Precision::Single).map_err(|error| error.to_string())
     });

@@ -64,6 +64,50 @@ fn a_wire_that_does_not_fit_is_refused_with_the_reason_in_place() {
 }
 
 #[test]
+fn keys_that_were_pressed_twice_since_the_last_frame_count_twice() {
+    let mut window = window();
+    let before = text(&window);
+    for name in ["one", "two"] {
+        window.state_mut().act(Action::edit("Rename", halfvector_graph::edit::Edit::SetName { name: name.into() }));
+    }
+    for _ in 0..2 {
+        for pressed in [true, false] {
+            let (modifiers, key) = (egui::Modifiers::COMMAND, egui::Key::Z);
+            window.event(egui::Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
+        }
+    }
+    window.step();
+    assert_eq!(text(&window), before);
+}
+
+#[test]
+fn the_graph_stays_whole_in_a_window_of_another_size_until_it_is_moved() {
+    let mut window = window();
+    let is_whole = |window: &Window| {
+        let graph = window.get_by_label("Graph canvas").rect();
+        let first = window.query_by_label("Node Where the enamel is gone").map(|node| node.rect());
+        first.is_some_and(|first| first.width() > 20.0 && graph.contains_rect(first))
+    };
+    window.set_size(egui::vec2(900.0, 600.0));
+    window.run_steps(4);
+    assert!(is_whole(&window));
+    let middle = window.get_by_label("Graph canvas").rect().center();
+    go(&mut window, middle);
+    let scroll = egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Line,
+        delta: egui::vec2(0.0, 9.0),
+        phase: egui::TouchPhase::Move,
+        modifiers: egui::Modifiers::COMMAND,
+    };
+    window.event(scroll);
+    window.run_steps(20);
+    assert!(!is_whole(&window));
+    window.set_size(egui::vec2(860.0, 600.0));
+    window.run_steps(4);
+    assert!(!is_whole(&window), "the person's own view is kept");
+}
+
+#[test]
 fn a_wire_taken_from_its_input_goes_elsewhere_or_away() {
     let mut window = window();
     let from = center(&window, "Input perceptual_roughness of Surface");

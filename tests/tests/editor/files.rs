@@ -244,6 +244,44 @@ fn paths_of_images_mean_the_same_files_in_another_folder() {
 }
 
 #[test]
+fn pictures_that_cannot_be_read_are_problems_of_their_nodes() {
+    let place = Place::new();
+    let mut harness = place.open();
+    let titles = |harness: &Harness<'_, Editor>, count: &str| harness.query_by_label_contains(count).is_some();
+    assert!(!titles(&harness, "Problems ("));
+    let image = |file: &str| {
+        let (wrap_u, wrap_v) = (Wrap::Repeat, Wrap::Repeat);
+        let (color_space, filter) = (ColorSpace::Srgb, Filter::Linear);
+        Value::Image(ImageRef { file: file.to_owned(), color_space, wrap_u, wrap_v, filter })
+    };
+    std::fs::write(place.folder.path().join("text.png"), "no picture").unwrap();
+    for (id, socket, file) in [("gone", "specular", "gone.png"), ("text", "ior", "text.png")] {
+        let node = halfvector_graph::document::Node::new("textures/image").with("image", image(file));
+        harness.state_mut().act(Action::edit("Add", Edit::AddNode { id: id.into(), node }));
+        let link = halfvector_graph::document::Link::new(SocketRef::new(id, "r"), SocketRef::new("surface", socket));
+        harness.state_mut().act(Action::edit("Link", Edit::AddLink { link }));
+    }
+    settle(&mut harness);
+    assert!(titles(&harness, "Problems (2)"));
+    harness.state_mut().act(Action::Select(vec!["gone".into()]));
+    settle(&mut harness);
+    let tells = |harness: &Harness<'_, Editor>, what: &str| harness.query_all_by_label_contains(what).next().is_some();
+    assert!(tells(&harness, "gone.png could not be read"));
+    // It is looked at again when something changes.
+    let value = Some(image("missing.png"));
+    let socket = SocketRef::new("gone", "image");
+    harness.state_mut().act(Action::edit("Choose", Edit::SetValue { socket, value }));
+    settle(&mut harness);
+    assert!(tells(&harness, "missing.png could not be read"));
+    harness.state_mut().act(Action::edit("Remove", Edit::RemoveNode { id: "text".into() }));
+    settle(&mut harness);
+    assert!(titles(&harness, "Problems (1)"));
+    harness.state_mut().act(Action::edit("Remove", Edit::RemoveNode { id: "gone".into() }));
+    settle(&mut harness);
+    assert!(!titles(&harness, "Problems ("));
+}
+
+#[test]
 fn a_change_by_others_is_offered_and_never_overwritten_unasked() {
     let place = Place::new();
     let mut harness = place.open();
@@ -297,16 +335,7 @@ fn unsaved_work_is_recovered_after_a_kill() {
         work_without_saving(Path::new(&folder));
     }
     let place = Place::new();
-    let mut victim = victim("unsaved_work_is_recovered_after_a_kill", place.folder.path());
-    let records = || {
-        let files = std::fs::read_dir(place.folder.path().join("recovery")).into_iter().flatten().flatten();
-        files.filter_map(|file| std::fs::read_to_string(file.path()).ok()).any(|text| text.contains("Never saved"))
-    };
-    let start = Instant::now();
-    while !records() {
-        assert!(start.elapsed() < Duration::from_secs(120), "no record is written");
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    let mut victim = working_victim("unsaved_work_is_recovered_after_a_kill", &place);
     // While it lives, its work is its own.
     let other = place.open_new();
     assert!(other.query_by_label("Recover").is_none());
@@ -325,6 +354,48 @@ fn unsaved_work_is_recovered_after_a_kill() {
     assert_eq!(place.read().name, "Never saved");
     drop(harness);
     assert!(place.open_new().query_by_label("Recover").is_none());
+}
+
+#[test]
+fn what_others_made_of_the_file_since_a_kill_is_not_overwritten_by_recovered_work() {
+    if let Some(folder) = std::env::var_os(VICTIM) {
+        work_without_saving(Path::new(&folder));
+    }
+    let place = Place::new();
+    let test = "what_others_made_of_the_file_since_a_kill_is_not_overwritten_by_recovered_work";
+    let mut victim = working_victim(test, &place);
+    victim.kill().unwrap();
+    victim.wait().unwrap();
+    let mut theirs = place.read();
+    theirs.name = "Theirs".to_owned();
+    halfvector_graph::file::save(&place.file(), &theirs).unwrap();
+    let mut harness = place.open_new();
+    click(&mut harness, "Recover");
+    harness.state_mut().act(Action::Save);
+    settle(&mut harness);
+    assert_eq!(place.read().name, "Theirs");
+    click(&mut harness, "Cancel");
+    wait_for(&mut harness, "the offer", |harness| harness.query_by_label("Reload").is_some());
+    assert_eq!(harness.state().session().document().name, "Never saved");
+    click(&mut harness, "Keep mine");
+    harness.state_mut().act(Action::Save);
+    settle(&mut harness);
+    assert_eq!(place.read().name, "Never saved");
+}
+
+/// A process that works without saving, once there is a record of its work.
+fn working_victim(test: &str, place: &Place) -> Child {
+    let victim = victim(test, place.folder.path());
+    let records = || {
+        let files = std::fs::read_dir(place.folder.path().join("recovery")).into_iter().flatten().flatten();
+        files.filter_map(|file| std::fs::read_to_string(file.path()).ok()).any(|text| text.contains("Never saved"))
+    };
+    let start = Instant::now();
+    while !records() {
+        assert!(start.elapsed() < Duration::from_secs(120), "no record is written");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    victim
 }
 
 fn work_without_saving(folder: &Path) -> ! {

@@ -12,7 +12,7 @@ use halfvector_graph::value::Value;
 
 use egui::accesskit::Role;
 
-use super::hands::write_into;
+use super::hands::{key, write_into};
 use super::{open, settle};
 
 type Window = Harness<'static, Editor>;
@@ -81,6 +81,23 @@ fn sockets_are_renamed_added_moved_and_removed_with_all_uses() {
         window.state_mut().act(Action::Undo);
     }
     assert_eq!(to_json(document(&window)), before);
+}
+
+#[test]
+fn a_new_group_is_selected_and_so_are_the_nodes_of_one_that_is_taken_apart() {
+    let mut window = open(Options::default());
+    settle(&mut window);
+    let two = ["base_color".to_owned(), "rust".to_owned()];
+    window.state_mut().act(Action::Select(two.to_vec()));
+    let canvas = window.get_by_label("Graph canvas").rect();
+    window.hover_at(canvas.left_bottom() + egui::vec2(20.0, -20.0));
+    window.run_steps(2);
+    let chosen = |window: &Window| window.state().session().selection().iter().cloned().collect::<Vec<_>>();
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::G);
+    let [group] = <[String; 1]>::try_from(chosen(&window)).expect("one node");
+    assert_eq!(document(&window).graph.nodes[&group].node, "group/group");
+    key(&mut window, egui::Modifiers::COMMAND.plus(egui::Modifiers::SHIFT), egui::Key::G);
+    assert_eq!(chosen(&window), two);
 }
 
 #[test]

@@ -15,6 +15,25 @@ pub(super) struct Arrival {
     pub(super) ids: Vec<NodeId>,
 }
 
+impl Arrival {
+    /// What an edit of the document brings into the graph that is worked on.
+    pub(super) fn of(group: Option<&str>, edit: Edit) -> Arrival {
+        let mut ids = Vec::new();
+        added(&edit, None, group, &mut ids);
+        Arrival { edits: vec![edit], ids }
+    }
+}
+
+/// The nodes that an edit adds to the graph of `group`; `inside` is the one that it works on.
+fn added(edit: &Edit, inside: Option<&str>, group: Option<&str>, ids: &mut Vec<NodeId>) {
+    match edit {
+        Edit::AddNode { id, .. } if inside == group => ids.push(id.clone()),
+        Edit::In { group: inner, edit } => added(edit, Some(inner), group, ids),
+        Edit::Many(edits) => edits.iter().for_each(|edit| added(edit, inside, group, ids)),
+        _ => {}
+    }
+}
+
 /// Adds a node of a definition at a place of the graph that is worked on.
 pub(super) fn add(session: &Session, definition: &str, place: [f32; 2]) -> Arrival {
     let graph: &Graph = session.graph();

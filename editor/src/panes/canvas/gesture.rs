@@ -11,6 +11,7 @@ use halfvector_graph::node_def::REROUTE;
 use halfvector_graph::operation::insert_on_link;
 use halfvector_graph::value::Value;
 
+use super::adding::Purpose;
 use super::draw::{self, Brush};
 use super::fit::{self, Loose, candidates, refusal};
 use super::guides::{self, Snapped};
@@ -18,7 +19,7 @@ use super::hit::{self, Hit};
 use super::notes::{self, NoteId, Part};
 use super::sheet::{Card, Field, REROUTE_SIZE, Sheet, Side};
 use super::view::to_grid;
-use super::{Canvas, Desk, Purpose, edits, moved};
+use super::{Canvas, Desk, edits, moved};
 use crate::action::Action;
 use crate::theme;
 

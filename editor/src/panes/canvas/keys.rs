@@ -8,11 +8,12 @@ use halfvector_graph::edit::Edit;
 use halfvector_graph::library::Library;
 use halfvector_graph::operation::{Refusal, collapse, copy, paste, remove_and_heal, ungroup};
 
+use super::adding::Purpose;
 use super::edits::Arrival;
 use super::fit::{Loose, sentence};
 use super::sheet::{Sheet, Side};
 use super::view::{GRID, to_grid};
-use super::{Canvas, Desk, Purpose, moved};
+use super::{Canvas, Desk, moved};
 use crate::action::Action;
 
 /// How far duplicates lie from their originals.
@@ -163,7 +164,10 @@ impl Canvas {
         let ids: Vec<NodeId> = desk.session.selection().iter().cloned().collect();
         let session = desk.session;
         match collapse(session.document(), Library::standard(), session.group(), &ids, "Group") {
-            Ok(edit) => desk.make_with(sheet, format!("Group {}", count(ids.len())), Vec::new(), edit),
+            Ok(edit) => {
+                let arrival = Arrival::of(session.group(), edit);
+                desk.arrive(sheet, format!("Group {}", count(ids.len())), arrival);
+            }
             Err(why) => self.say(ui, at, sentence(&why.0)),
         }
     }
@@ -174,7 +178,7 @@ impl Canvas {
         let is_group = |id: &&NodeId| session.graph().nodes.get(*id).is_some_and(|node| group_of(&node.node).is_some());
         let Some(id) = session.selection().iter().find(is_group) else { return };
         match ungroup(session.document(), Library::standard(), session.group(), id) {
-            Ok(edit) => desk.make_with(sheet, "Ungroup", Vec::new(), edit),
+            Ok(edit) => desk.arrive(sheet, "Ungroup", Arrival::of(session.group(), edit)),
             Err(why) => self.say(ui, at, sentence(&why.0)),
         }
     }

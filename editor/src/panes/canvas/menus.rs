@@ -4,10 +4,11 @@ use eframe::egui::{self, PointerButton, Pos2, Response};
 use halfvector_graph::document::{Link, NodeId, function_of, group_of};
 use halfvector_graph::edit::Edit;
 
+use super::adding::Purpose;
 use super::hit::Hit;
 use super::notes::NoteId;
 use super::sheet::Sheet;
-use super::{Canvas, Desk, Purpose};
+use super::{Canvas, Desk};
 use crate::action::Action;
 
 /// What a menu is about.

@@ -8,7 +8,7 @@ pub(super) const GRID: f32 = 20.0;
 pub(super) const ZOOM: std::ops::RangeInclusive<f32> = 0.08..=2.5;
 
 /// The part that is seen.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct View {
     /// The canvas point in the middle of the pane.
     pub(super) center: Pos2,

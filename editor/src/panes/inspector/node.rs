@@ -22,7 +22,6 @@ pub(crate) fn show(
     ui: &mut egui::Ui,
     session: &Session,
     id: &NodeId,
-    notices: &[Problem],
     thumbnails: &mut Thumbnails,
     actions: &mut Vec<Action>,
 ) {
@@ -36,7 +35,7 @@ pub(crate) fn show(
         } else {
             ui.label(format!("This version does not know nodes of the kind {}. It is kept as it is.", node.node));
         }
-        problems(ui, session, notices, id);
+        problems(ui, session, id);
         return;
     };
     label(ui, id, node.label.as_deref(), def, actions);
@@ -50,7 +49,7 @@ pub(crate) fn show(
             ui.weak(format!("shaders/{}", def.file)).on_hover_text(&def.function.name);
         }
     });
-    problems(ui, session, notices, id);
+    problems(ui, session, id);
     ui.separator();
     ui.push_id(id, |ui| {
         if curve::is_curve(def) {
@@ -117,8 +116,9 @@ fn outputs(ui: &mut egui::Ui, def: &NodeDef) {
     }
 }
 
-fn problems(ui: &mut egui::Ui, session: &Session, notices: &[Problem], id: &NodeId) {
-    for problem in session.problems().iter().chain(notices).filter(|problem| problem.node.as_ref() == Some(id)) {
+fn problems(ui: &mut egui::Ui, session: &Session, id: &NodeId) {
+    let is_here = |problem: &&Problem| problem.node.as_ref() == Some(id) && problem.group.as_deref() == session.group();
+    for problem in session.all_problems().filter(is_here) {
         let color = if problem.severity == Severity::Error { theme::ERROR } else { theme::WARNING };
         let text = match &problem.socket {
             Some(socket) => format!("{}: {}", in_words(socket), problem.message),

@@ -1,0 +1,100 @@
+//! Nodes that come: the palette, what it offers at a place of the canvas, and where the chosen one goes.
+
+use eframe::egui::{self, Id, Pos2};
+use halfvector_graph::check::node_label;
+use halfvector_graph::document::{Link, SocketRef, group_of};
+use halfvector_graph::edit::Edit;
+use halfvector_graph::node_def::NodeDef;
+
+use super::fit::{self, Loose};
+use super::sheet::{Sheet, shown};
+use super::{Canvas, Desk, edits, view};
+use crate::action::Action;
+use crate::functions;
+use crate::palette::{self, Outcome};
+
+/// Where a node of the palette goes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Purpose {
+    /// Its place on the canvas.
+    pub(super) at: Pos2,
+    /// The wire that it is for.
+    pub(super) loose: Option<Loose>,
+    /// The wire that it is put into.
+    pub(super) into: Option<Link>,
+}
+
+impl Canvas {
+    /// Opens the palette.
+    pub(super) fn open_palette(&mut self, desk: &Desk<'_>, at: Pos2, purpose: Purpose) {
+        let words = |socket: &SocketRef| {
+            let label = node_label(desk.graph, desk.library, &socket.node);
+            format!("“{}” of {label}", shown(&socket.socket))
+        };
+        let named = |purpose: &Purpose| match (&purpose.loose, &purpose.into) {
+            (Some(Loose::Output(socket, _)), _) => Some(format!("Nodes that take {}", words(socket))),
+            (Some(Loose::Input(socket, _)), _) => Some(format!("Nodes that give {}", words(socket))),
+            (None, Some(_)) => Some("Nodes that can stand in this wire".to_owned()),
+            (None, None) => None,
+        };
+        let types = halfvector_graph::resolve::resolve_types(desk.graph, desk.library);
+        let ends = purpose.into.as_ref().and_then(|link| {
+            let given = types.get(&link.from.node)?.output(&link.from.socket)?;
+            Some((given, types.get(&link.to.node)?.input(&link.to.socket)?))
+        });
+        let path = desk.session.path();
+        // A group cannot hold itself.
+        let is_around = |def: &NodeDef| group_of(&def.id).is_some_and(|id| path.iter().any(|outer| outer == id));
+        let offers = |def: &NodeDef| match (&purpose.loose, ends) {
+            _ if is_around(def) => false,
+            (Some(loose), _) => loose.socket_of(def).is_some(),
+            (None, Some((given, wanted))) => fit::through(def, given, wanted).is_some(),
+            (None, None) => true,
+        };
+        self.palette.open(at, desk.library, named(&purpose), offers);
+        self.purpose = purpose;
+    }
+
+    /// Shows the palette and adds the node that is chosen.
+    pub(super) fn choose(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) {
+        let canvas = Id::new("graph canvas");
+        match self.palette.show(ui, ui.ctx().content_rect(), desk.library) {
+            Outcome::None => return,
+            Outcome::Closed => {}
+            Outcome::Chosen(definition) => self.add(desk, sheet, &definition),
+        }
+        ui.memory_mut(|memory| memory.request_focus(canvas));
+    }
+
+    pub(super) fn add(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, definition: &str) {
+        if definition == palette::NEW_FUNCTION {
+            let at = std::mem::take(&mut self.purpose).at;
+            self.add_function(desk, sheet, at);
+            return;
+        }
+        let Some(def) = desk.library.get(definition) else { return };
+        let purpose = std::mem::take(&mut self.purpose);
+        let at = if self.keeps_off_grid { purpose.at } else { view::to_grid(purpose.at) };
+        let mut arrival = edits::add(desk.session, definition, at.into());
+        let id = arrival.ids[0].clone();
+        if let Some(loose) = &purpose.loose
+            && let Some(socket) = loose.socket_of(def)
+        {
+            arrival.edits.push(desk.session.here(Edit::AddLink { link: loose.link(SocketRef::new(&id, socket)) }));
+        }
+        if let Some(link) = &purpose.into {
+            edits::put_into(desk.session, &mut arrival, link);
+        }
+        desk.arrive(sheet, format!("Add {}", def.label), arrival);
+    }
+
+    /// Adds a function of the document with a node of it, and brings its text to the front.
+    pub(super) fn add_function(&self, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
+        let at = if self.keeps_off_grid { at } else { view::to_grid(at) };
+        let (id, function) = functions::new(desk.session.document());
+        let mut arrival = edits::add(desk.session, &format!("custom/{id}"), at.into());
+        arrival.edits.insert(0, function);
+        desk.arrive(sheet, "New function", arrival);
+        desk.actions.push(Action::EditFunction(id));
+    }
+}
