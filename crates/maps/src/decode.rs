@@ -13,6 +13,7 @@ use image::{ColorType, ImageDecoder, ImageFormat, ImageReader};
 use rayon::prelude::*;
 
 mod format;
+mod jpeg;
 mod stated;
 mod tga;
 mod tiff;
@@ -175,7 +176,8 @@ impl Decoded {
 /// 8-bit files keep 8 bits, 16-bit ones 16, float ones (TIFF) their values, with NaN read as 0 and infinities as +-65504.
 /// Fewer bits become 8, palettes their colours.
 ///
-/// A JPEG whose scan ends early but that has its end marker is read as far as it goes: its decoder does not tell.
+/// A JPEG of which a scan ends early is an error, though it has its end marker; a progressive one whose last scans are not
+/// there is the coarser image that it holds, with a note.
 ///
 /// # Errors
 /// [`DecodeError`] says what is wrong with the bytes. A profile is no error before colours are asked for.
@@ -207,8 +209,9 @@ struct Parts {
 fn decode_as(format: ImageFormat, bytes: &[u8], limits: Limits) -> Result<Parts, DecodeError> {
     let name = format::name(format);
     let explain = |error| explained(error, name);
-    let jpeg = if format == ImageFormat::Jpeg { format::jpeg(bytes) } else { format::Jpeg::default() };
-    if format == ImageFormat::Jpeg && !jpeg.is_complete {
+    let is_jpeg = format == ImageFormat::Jpeg;
+    let jpeg = if is_jpeg { jpeg::stated(bytes) } else { jpeg::Jpeg::default() };
+    if is_jpeg && !jpeg.is_complete {
         return Err(DecodeError::Truncated { format: name });
     }
     if jpeg.components == 4 {
@@ -252,7 +255,16 @@ fn decode_as(format: ImageFormat, bytes: &[u8], limits: Limits) -> Result<Parts,
 
     drop(icc);
     let count = width as usize * height as usize;
-    let read = |buffer: &mut [u8]| decoder.read_image(buffer).map_err(explain);
+    let mut flaw = None;
+    let read = |buffer: &mut [u8]| {
+        // Beside the decoder, which works on one core.
+        rayon::in_place_scope(|scope| {
+            if is_jpeg {
+                scope.spawn(|_| flaw = jpeg::flaw(bytes));
+            }
+            decoder.read_image(buffer).map_err(explain)
+        })
+    };
     let texels = match sample_bytes {
         _ if is_stored_as_read => {
             let mut texels = zeroed::<[u8; 4]>(count, name)?;
@@ -270,14 +282,31 @@ fn decode_as(format: ImageFormat, bytes: &[u8], limits: Limits) -> Result<Parts,
             Texels::U16(spread(&values, channels, 65_535, |v| v))
         }
     };
-    Ok(Parts { width, height, channels, texels, profile, notes: Vec::new() })
+    let notes = jpeg_notes(flaw)?;
+    Ok(Parts { width, height, channels, texels, profile, notes })
+}
+
+/// A flaw of a JPEG file as an error, or as a note where all of the image is there.
+fn jpeg_notes(flaw: Option<jpeg::Flaw>) -> Result<Vec<String>, DecodeError> {
+    let reason = match flaw {
+        None => return Ok(Vec::new()),
+        Some(jpeg::Flaw::Coarse) => {
+            return Ok(vec![
+                "the last scans of the progressive JPEG are not there: it is coarser than it was".to_owned(),
+            ]);
+        }
+        Some(jpeg::Flaw::Short) => "a scan ends before all of the image is in it",
+        Some(jpeg::Flaw::NoCode) => "a scan holds bits that mean nothing",
+        Some(jpeg::Flaw::Missing) => "one of its colour components is not there",
+    };
+    Err(DecodeError::Damaged { format: "JPEG", reason: reason.to_owned() })
 }
 
 /// What a decoder allocates beside what it is given, at most: bytes per texel, and bytes. JPEG keeps a copy of the file and,
-/// where it is progressive, coefficients of 16 bits; WebP keeps its planes, or its own copy of the texels.
-fn decoders_own(format: ImageFormat, jpeg: &format::Jpeg, length: usize) -> (usize, usize) {
+/// where it is progressive, coefficients of 16 bits, and a bit for each in `jpeg::flaw`; WebP keeps its planes, or its own copy of the texels.
+fn decoders_own(format: ImageFormat, jpeg: &jpeg::Jpeg, length: usize) -> (usize, usize) {
     match format {
-        ImageFormat::Jpeg if jpeg.is_progressive => (2 * usize::from(jpeg.components), length),
+        ImageFormat::Jpeg if jpeg.is_progressive => (2 * usize::from(jpeg.components) + 1, length),
         ImageFormat::Jpeg => (0, length),
         ImageFormat::WebP => (4, 0),
         _ => (0, 0),

@@ -1,4 +1,4 @@
-//! Which format bytes are in, and where JPEG's segments lie. Does not decode.
+//! Which format bytes are in. Does not decode.
 
 use image::ImageFormat;
 
@@ -55,59 +55,4 @@ pub(super) fn name(format: ImageFormat) -> &'static str {
         ImageFormat::Qoi => "QOI",
         other => other.extensions_str().first().copied().unwrap_or("unknown"),
     }
-}
-
-/// What the segments of a JPEG file say.
-#[derive(Debug, Default)]
-pub(super) struct Jpeg {
-    /// Whether they run through to the end marker. The decoder fills what is missing with grey.
-    pub(super) is_complete: bool,
-    /// Number of colour components in the frame.
-    pub(super) components: u8,
-    /// Whether it is progressive, so that all coefficients are held at once.
-    pub(super) is_progressive: bool,
-    /// Whether an ICC profile is there.
-    pub(super) has_profile: bool,
-}
-
-/// Walks through the segments. ITU-T T.81 (1992), annex B: a marker is FF and a code; most carry a length; after SOS (DA)
-/// come entropy-coded bytes in which FF is followed by 0 or by a restart marker (D0..D7), until the next marker.
-pub(super) fn jpeg(bytes: &[u8]) -> Jpeg {
-    let mut found = Jpeg::default();
-    let mut at = 2;
-    while let Some(&[first, code]) = bytes.get(at..).and_then(|rest| rest.first_chunk::<2>()) {
-        match (first, code) {
-            (0xff, 0xd9) => {
-                found.is_complete = true;
-                return found;
-            }
-            // Fill bytes, and markers that stand alone.
-            (0xff, 0xff) => at += 1,
-            (0xff, 0x01 | 0xd0..=0xd8) => at += 2,
-            (0xff, 0x02..) => {
-                let Some(&[high, low]) = bytes.get(at + 2..).and_then(|rest| rest.first_chunk::<2>()) else {
-                    return found;
-                };
-                let content = bytes.get(at + 4..).unwrap_or_default();
-                match code {
-                    0xc0..=0xc3 => {
-                        found.components = content.get(5).copied().unwrap_or(0);
-                        found.is_progressive |= code == 0xc2;
-                    }
-                    0xe2 => found.has_profile |= content.starts_with(b"ICC_PROFILE\0"),
-                    _ => {}
-                }
-                at += 2 + usize::from(u16::from_be_bytes([high, low])).max(2);
-                if code == 0xda {
-                    let Some(scan) = bytes.get(at..) else { return found };
-                    let end = scan.windows(2).position(|w| w[0] == 0xff && !matches!(w[1], 0x00 | 0xd0..=0xd7 | 0xff));
-                    let Some(end) = end else { return found };
-                    at += end;
-                }
-            }
-            // Not a marker: some writers pad between segments.
-            _ => at += 1,
-        }
-    }
-    found
 }

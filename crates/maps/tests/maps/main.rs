@@ -8,6 +8,7 @@ mod decode;
 mod exhaustive;
 mod fuzz_corpus;
 mod hard_cases;
+mod jpeg_files;
 mod lost_length;
 mod mip;
 mod pack;
