@@ -30,7 +30,7 @@ use crate::value::SocketType;
 use crate::wiring::Wiring;
 use findings::Findings;
 
-pub use limits::{MAX_GROUP_SOCKETS, MAX_GROUPS, MAX_LINKS, MAX_NODES, MAX_PARAMETERS};
+pub use limits::{MAX_FUNCTIONS, MAX_GROUP_SOCKETS, MAX_GROUPS, MAX_LINKS, MAX_NODES, MAX_PARAMETERS};
 
 /// Most nodes that may reach the surface: more make no shader that a driver takes.
 pub const MAX_LIVE_NODES: usize = 20_000;

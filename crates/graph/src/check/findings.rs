@@ -6,7 +6,7 @@ use super::{Problem, Severity};
 /// Most problems of a severity that are told; the others are counted.
 const MAX_TOLD: usize = 10_000;
 /// Most searches for a likely name: a hostile document has many wrong ones.
-const MAX_SEARCHES: usize = 50;
+const MAX_SEARCHES: usize = 20;
 
 /// Problems of a document.
 #[derive(Debug, Default)]

@@ -9,9 +9,11 @@ pub const MAX_NODES: usize = 50_000;
 /// Most links of a document, with those in its groups.
 pub const MAX_LINKS: usize = 200_000;
 /// Most groups of a document.
-pub const MAX_GROUPS: usize = 2000;
+pub const MAX_GROUPS: usize = 1000;
 /// Most inputs of a group, and most outputs.
 pub const MAX_GROUP_SOCKETS: usize = 128;
+/// Most functions of a document: each is parsed with what it calls of the library.
+pub const MAX_FUNCTIONS: usize = 256;
 /// Most parameters of a material: a uniform buffer that every device has holds 16 KiB.
 pub const MAX_PARAMETERS: usize = 1024;
 
@@ -42,6 +44,7 @@ pub(super) fn check(document: &Document) -> Vec<Problem> {
     for (count, most, what, remedy) in [
         (links, MAX_LINKS, "links", "remove those that lead nowhere"),
         (document.groups.len(), MAX_GROUPS, "groups", "remove those that nothing uses"),
+        (document.functions.len(), MAX_FUNCTIONS, "functions", "remove those that nothing uses"),
         (document.parameters.len(), MAX_PARAMETERS, "parameters", "offer fewer"),
     ] {
         if count > most {

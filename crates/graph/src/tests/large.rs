@@ -135,8 +135,12 @@ fn too_much_is_counted_before_anything_is_built() {
     for (d, words) in [
         (with(&|d| d.graph.links = vec![link("surface.out", "surface.out"); 200_001]), "200001 links; at most 200000"),
         (
-            with(&|d| d.groups.extend((0..2001).map(|i| (format!("g{i}"), Group::default())))),
-            "2001 groups; at most 2000",
+            with(&|d| d.groups.extend((0..1001).map(|i| (format!("g{i}"), Group::default())))),
+            "1001 groups; at most 1000",
+        ),
+        (
+            with(&|d| d.functions.extend((0..257).map(|i| (format!("f{i}"), String::new())))),
+            "257 functions; at most 256",
         ),
         (with(&|d| d.parameters = vec![parameter.clone(); 1025]), "1025 parameters; at most 1024"),
         (with(&|d| drop(d.groups.insert("g".into(), sockets(129)))), "129 inputs; at most 128"),
