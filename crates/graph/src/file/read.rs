@@ -77,9 +77,9 @@ fn read_material(root: Spanned) -> Result<Material, Wrong> {
     read_document(members, version, at).map(|document| Material::Whole(Box::new(document)))
 }
 
-/// An instance. Of a newer version only what is understood is taken: nothing is written back to it.
+/// An instance. Of a newer version only what is understood is taken.
 fn read_instance(members: Vec<Member>, newer: bool) -> Result<Instance, Wrong> {
-    let mut instance = Instance { name: None, base: String::new(), set: Vec::new() };
+    let mut instance = Instance { name: None, base: String::new(), set: Vec::new(), is_newer: newer };
     for Member { at, key, value } in members {
         match key.as_str() {
             "halfvector" => {}
