@@ -1,12 +1,17 @@
 //! What the editor waits for: a picture after a number was dragged, after the camera moved, and after an edit that makes
 //! another shader (code generator, program, pipeline and picture), of a material of 30 nodes; and all of it without what is
-//! kept from picture to picture. Without a GPU, not even a software one, it says so and measures nothing.
+//! kept from picture to picture. Of the edit, what the processor does however fast the GPU is stands alone, too: our code generator, and
+//! what wgpu has naga do with the text (read, validate, translate to SPIR-V). Without a GPU, not even a software one, it says so and
+//! measures that part alone.
 
+use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use halfvector_codegen::Fold;
+use halfvector_codegen::{Fold, shader};
 use halfvector_graph::document::Document;
+use halfvector_graph::library::Library;
+use halfvector_graph::needs::ShaderOutput;
 use halfvector_ibl::{BakeOptions, bake};
 use halfvector_render::{Cache, RenderOptions, Renderer};
 use halfvector_scene::{BuiltinMesh, MeshSource, Scene};
@@ -37,6 +42,33 @@ fn thirty_nodes(scale: f32, edit: bool) -> Document {
     let (nodes, links) = (nodes.join(","), links.join(","));
     let json = format!(r#"{{"halfvector": 1, "name": "Thirty nodes", "nodes": {{{nodes}}}, "links": [{links}]}}"#);
     halfvector_graph::file::from_json(&json).expect("a sound document")
+}
+
+/// Reads, validates and translates as wgpu does for Vulkan.
+fn spirv(wgsl: &str) -> usize {
+    let module = naga::front::wgsl::parse_str(wgsl).expect("sound WGSL");
+    let flags = naga::valid::ValidationFlags::all();
+    let info = naga::valid::Validator::new(flags, naga::valid::Capabilities::all()).validate(&module).expect("valid");
+    let words = module.entry_points.iter().map(|entry| {
+        let of = naga::back::spv::PipelineOptions { shader_stage: entry.stage, entry_point: entry.name.clone() };
+        let options = naga::back::spv::Options::default();
+        naga::back::spv::write_vec(&module, &info, &options, Some(&of)).expect("SPIR-V").len()
+    });
+    words.sum()
+}
+
+fn processor(criterion: &mut Criterion) {
+    let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
+    let scene = Scene::from_material(thirty_nodes(10.0, true), "".as_ref(), &sphere).expect("a scene");
+    let needs = halfvector_scene::needs(&scene, ShaderOutput::Radiance);
+    let document = &scene.materials[0].document;
+    let make = || shader(black_box(document), Library::standard(), &needs, Fold::Live).expect("a shader");
+    let wgsl = make().wgsl;
+    let mut group = criterion.benchmark_group("edit, on the processor");
+    group.sample_size(20);
+    group.bench_function("code generator", |bencher| bencher.iter(make));
+    group.bench_function("naga", |bencher| bencher.iter(|| spirv(black_box(&wgsl))));
+    group.finish();
 }
 
 fn picture(criterion: &mut Criterion) {
@@ -92,5 +124,5 @@ fn picture(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, picture);
+criterion_group!(benches, processor, picture);
 criterion_main!(benches);

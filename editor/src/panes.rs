@@ -9,3 +9,15 @@ pub(crate) mod inspector;
 pub(crate) mod library;
 pub(crate) mod problems;
 pub(crate) mod viewport;
+
+use eframe::egui;
+
+/// A button that stays down: what it does is on until it is pressed again.
+pub(crate) fn toggle(ui: &mut egui::Ui, on: &mut bool, text: impl Into<String>) -> egui::Response {
+    let mut response = ui.add(egui::Button::selectable(*on, text.into()).frame_when_inactive(true));
+    if response.clicked() {
+        *on = !*on;
+        response.mark_changed();
+    }
+    response
+}

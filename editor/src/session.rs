@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use halfvector_graph::check::{Problem, check};
 use halfvector_graph::document::{Document, Graph, Link, Node, NodeId, SocketRef, group_of};
 use halfvector_graph::edit::Edit;
+use halfvector_graph::file::{Instance, Loaded};
 use halfvector_graph::library::Library;
 use halfvector_graph::library::custom::read_function;
 use halfvector_graph::value::Value;
@@ -29,6 +30,8 @@ pub struct Session {
     /// The document as it stands in its file.
     saved: Option<Arc<Document>>,
     file: Option<PathBuf>,
+    /// What the file is written as when it is an instance.
+    base: Option<Base>,
     selection: BTreeSet<NodeId>,
     /// Of the revision that it holds.
     problems: Vec<Problem>,
@@ -42,6 +45,23 @@ pub struct Session {
     sound: BTreeMap<String, String>,
     /// The document with those texts, while any function is wrong.
     as_it_was: Option<Arc<Document>>,
+}
+
+/// What the file of an instance says, and the document that it stands for.
+#[derive(Debug)]
+struct Base {
+    instance: Instance,
+    document: Arc<Document>,
+    /// Whether the document of the session can still be written as an instance.
+    is_enough: bool,
+}
+
+/// A document as it goes into a file.
+#[derive(Clone, Debug)]
+pub(crate) struct Written {
+    pub(crate) document: Arc<Document>,
+    /// The instance that stands for it, where the file is one.
+    pub(crate) instance: Option<Instance>,
 }
 
 /// The material that a new document holds, as the text of its file.
@@ -58,6 +78,25 @@ impl Session {
     /// A session with a document that no file holds, but that belongs into one.
     pub(crate) fn recovered(document: Document, file: Option<PathBuf>) -> Session {
         Session { saved: None, ..Session::of(document, file) }
+    }
+
+    /// A session with a document as it was read from a file.
+    pub(crate) fn read(read: Loaded, file: PathBuf) -> Session {
+        let mut session = Session::of(read.document, Some(file));
+        session.set_base(read.instance, session.document.clone());
+        session
+    }
+
+    /// The file of recovered work holds this: when that is an instance, the work is one.
+    pub(crate) fn was(&mut self, read: Loaded) {
+        self.set_base(read.instance, Arc::new(read.document));
+    }
+
+    fn set_base(&mut self, instance: Option<Instance>, document: Arc<Document>) {
+        self.base = instance.map(|instance| {
+            let is_enough = instance.changed(&document, &self.document).is_some();
+            Base { instance, document, is_enough }
+        });
     }
 
     /// A session with a document that has no file.
@@ -79,6 +118,7 @@ impl Session {
             revision: next_revision(),
             saved: Some(document.clone()),
             file,
+            base: None,
             selection: BTreeSet::new(),
             heat: BTreeMap::new(),
             notices: Arc::default(),
@@ -170,6 +210,16 @@ impl Session {
     /// The file of the document, if it has one.
     pub fn file(&self) -> Option<&Path> {
         self.file.as_deref()
+    }
+
+    /// The file that this one is an instance of, as it is written there; none of a material of its own.
+    pub fn base(&self) -> Option<&str> {
+        self.base.as_ref().map(|base| base.instance.base.as_str())
+    }
+
+    /// Whether the file can hold the document: an instance holds parameters' values and a name.
+    pub fn fits_its_file(&self) -> bool {
+        self.base.as_ref().is_none_or(|base| base.is_enough)
     }
 
     /// The folder that relative paths of the document start from.
@@ -335,7 +385,7 @@ impl Session {
     }
 
     /// A document was written to a file, which is this session's from now on. Image paths start at its folder.
-    pub(crate) fn saved(&mut self, path: PathBuf, document: Arc<Document>) {
+    pub(crate) fn saved(&mut self, path: PathBuf, Written { document, instance }: Written) {
         let (from, to) = (self.directory(), path.parent().map(Path::to_owned).unwrap_or_default());
         self.file = Some(path);
         if let Some(moved) = with_images_moved(&self.document, &from, &to) {
@@ -347,19 +397,20 @@ impl Session {
             });
             self.changed();
         }
+        self.set_base(instance, document.clone());
         self.saved = Some(document);
     }
 
-    /// A session with the material that an instance in a folder stands for. It has no file: written over the instance it would
-    /// end being one.
-    pub(crate) fn of_instance(document: Document, folder: &Path) -> Session {
-        let moved = with_images_moved(&document, folder, Path::new(""));
-        Session::of(moved.unwrap_or(document), None)
-    }
-
-    /// The document as it is to stand in a file of this folder: image paths mean the same files there.
-    pub(crate) fn document_for(&self, folder: &Path) -> Arc<Document> {
-        with_images_moved(&self.document, &self.directory(), folder).map_or_else(|| self.document.clone(), Arc::new)
+    /// The document as it is to stand in a file: image paths mean the same files from there, and an instance stays one. `None`
+    /// when it is an instance that cannot hold what was changed.
+    pub(crate) fn written(&self, path: &Path) -> Option<Written> {
+        if let (Some(base), true) = (&self.base, self.file() == Some(path)) {
+            let instance = base.instance.changed(&base.document, &self.document)?;
+            return Some(Written { document: self.document.clone(), instance: Some(instance) });
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let moved = with_images_moved(&self.document, &self.directory(), folder);
+        Some(Written { document: moved.map_or_else(|| self.document.clone(), Arc::new), instance: None })
     }
 
     /// The file holds something else than what was read or written last.
@@ -370,6 +421,9 @@ impl Session {
     fn changed(&mut self) {
         self.revision = next_revision();
         self.problems = check(&self.document, Library::standard());
+        if let Some(base) = &mut self.base {
+            base.is_enough = base.instance.changed(&base.document, &self.document).is_some();
+        }
         self.keep_what_is_there();
     }
 }

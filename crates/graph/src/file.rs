@@ -15,9 +15,9 @@ use std::path::{Path, PathBuf};
 
 use crate::document::{Document, Group};
 
-pub use instance::{InstanceError, MAX_INSTANCE_DEPTH};
+pub use instance::{Instance, InstanceError, MAX_INSTANCE_DEPTH};
 pub use read::{from_json, group_from_json};
-pub use write::{group_to_json, to_json};
+pub use write::{group_to_json, instance_to_json, to_json};
 
 /// Largest text that is read, in bytes.
 pub const MAX_BYTES: usize = 32 << 20;
@@ -103,8 +103,8 @@ pub struct Loaded {
     pub document: Document,
     /// What stood in the file: an editor tells by it whether others have changed the file since.
     pub bytes: Vec<u8>,
-    /// Whether the file is an instance: writing the document there would make a material of its own of it.
-    pub is_instance: bool,
+    /// What the file says when it is an instance: writing the document there would make a material of its own of it.
+    pub instance: Option<Instance>,
 }
 
 /// Reads a document from a file. A file with the field `base` is an instance: another material, named from this file's folder,

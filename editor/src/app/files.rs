@@ -17,7 +17,7 @@ use crate::app::questions::Question;
 use crate::files::clerk::{Clerk, Order, Report, SaveFault, read};
 use crate::files::record::Lost;
 use crate::files::settings::Settings;
-use crate::session::Session;
+use crate::session::{Session, Written};
 
 /// How long after a change it is kept for a crash.
 const KEEP_AFTER: Duration = Duration::from_millis(1000);
@@ -64,20 +64,11 @@ pub(crate) struct Files {
     title: String,
 }
 
-/// What is said of an instance that was opened.
-fn instance_note(path: &Path) -> String {
-    format!(
-        "{} is an instance: what is shown is a copy of the material that it stands for, with its values; change the instance in a text \
-         editor, or save the copy as a material of its own",
-        path.display()
-    )
-}
-
 /// A change of the open file by others.
 #[derive(Debug)]
 pub(crate) struct Outside {
     /// What stands there now, or why that cannot be read.
-    pub(crate) document: Result<Document, String>,
+    pub(crate) read: Result<Loaded, String>,
     /// Whether the differences are shown.
     pub(crate) is_shown: bool,
 }
@@ -92,14 +83,10 @@ impl Files {
         let mut open = None;
         if let Some(path) = options.document {
             match read(&path) {
-                Ok(Loaded { document, is_instance: true, .. }) => {
-                    session = Session::of_instance(document, path.parent().unwrap_or(Path::new("")));
-                    troubles.push(instance_note(&path));
-                }
-                Ok(Loaded { document, bytes, .. }) => {
+                Ok(read) => {
                     let path = absolute(&path);
-                    session = Session::of(document, Some(path.clone()));
-                    open = Some((path, bytes));
+                    open = Some((path.clone(), read.bytes.clone()));
+                    session = Session::read(read, path);
                 }
                 Err(why) => troubles.push(why),
             }
@@ -189,8 +176,17 @@ impl Editor {
     /// Writes the document to a file, which becomes its own when that is done.
     pub(crate) fn save_as(&mut self, path: PathBuf, over_changes: bool) {
         let path = absolute(&path);
-        let document = self.session.document_for(path.parent().unwrap_or(Path::new("")));
-        self.files.order(Order::Save { path, document, over_changes });
+        match self.session.written(&path) {
+            Some(what) => self.files.order(Order::Save { path, what, over_changes }),
+            None => {
+                self.files.after_save = None;
+                self.messages.fail(
+                    "an instance holds values of its base's parameters and a name, and more was changed: save it as a material \
+                     of its own, under another name, or undo the rest"
+                        .to_owned(),
+                );
+            }
+        }
     }
 
     fn replace_session(&mut self, session: Session) {
@@ -208,7 +204,11 @@ impl Editor {
                     Some(path) => Order::Watch { path, known: lost.record.known },
                     None => Order::Release,
                 });
-                self.replace_session(Session::recovered(document, file));
+                let mut session = Session::recovered(document, file);
+                if let Some(Ok(read)) = session.file().map(read) {
+                    session.was(read);
+                }
+                self.replace_session(session);
                 // First the record of this window, then the old one goes: at no time is there none.
                 self.keep();
                 self.files.order(Order::Forget(lost));
@@ -222,22 +222,17 @@ impl Editor {
     pub(crate) fn hear(&mut self) {
         while let Some(report) = self.files.clerk.as_ref().and_then(Clerk::poll) {
             match report {
-                Report::Opened(path, Ok(document)) => {
+                Report::Opened(path, Ok(read)) => {
                     let path = absolute(&path);
                     self.messages.tell(format!("Opened {}", path.display()));
                     self.files.settings.remember(&path);
-                    self.replace_session(Session::of(document, Some(path)));
-                }
-                Report::OpenedInstance(path, document) => {
-                    self.messages.tell(instance_note(&path));
-                    let folder = path.parent().unwrap_or(Path::new(""));
-                    self.replace_session(Session::of_instance(document, folder));
+                    self.replace_session(Session::read(read, path));
                 }
                 Report::Opened(path, Err(why)) => {
                     self.files.settings.recent.retain(|recent| *recent != path || path.exists());
                     self.messages.fail(why);
                 }
-                Report::Saved(path, document, Ok(())) => self.was_saved(path, document),
+                Report::Saved(path, what, Ok(())) => self.was_saved(path, what),
                 Report::Saved(path, _, Err(SaveFault::Changed)) => {
                     self.files.question = Some(Question::Overwrite(path));
                 }
@@ -245,9 +240,9 @@ impl Editor {
                     self.files.after_save = None;
                     self.messages.fail(why);
                 }
-                Report::Changed(path, document) => {
+                Report::Changed(path, read) => {
                     if self.session.file() == Some(path.as_path()) {
-                        self.files.outside = Some(Outside { document, is_shown: false });
+                        self.files.outside = Some(Outside { read, is_shown: false });
                     }
                 }
                 Report::AlsoOpen(processes) => self.files.also_open = processes,
@@ -261,11 +256,11 @@ impl Editor {
         }
     }
 
-    fn was_saved(&mut self, path: PathBuf, document: Arc<Document>) {
+    fn was_saved(&mut self, path: PathBuf, what: Written) {
         self.messages.tell(format!("Saved {}", path.display()));
         self.files.settings.remember(&path);
         self.files.outside = None;
-        self.session.saved(path, document);
+        self.session.saved(path, what);
         if let Some(next) = self.files.after_save.take() {
             // More may have been changed while it was written.
             self.ask(next);
@@ -274,10 +269,11 @@ impl Editor {
 
     /// Takes what others have made of the file.
     pub(crate) fn reload(&mut self) {
-        if let Some(Outside { document: Ok(document), .. }) = self.files.outside.take() {
-            let file = self.session.file().map(Path::to_owned);
+        if let Some(Outside { read: Ok(read), .. }) = self.files.outside.take()
+            && let Some(file) = self.session.file().map(Path::to_owned)
+        {
             self.files.order(Order::Accept);
-            self.replace_session(Session::of(document, file));
+            self.replace_session(Session::read(read, file));
             self.messages.tell("Reloaded".to_owned());
         }
     }
@@ -357,14 +353,22 @@ impl Editor {
         }
     }
 
-    /// Opens a material that was dropped on the window. Other files belong to the panes.
+    /// Opens a material that was dropped on the window. Models, environments and pictures belong to the panes.
     pub(crate) fn take_dropped(&mut self) {
         let is_material = |path: &Path| path.to_str().is_some_and(|name| name.ends_with(".material.json"));
-        let dropped = self.context.input(|input| {
-            let paths = input.raw.dropped_files.iter().map(|file| file.path().to_owned());
-            paths.filter(|path| is_material(path)).collect::<Vec<_>>()
-        });
-        if let Some(path) = dropped.into_iter().next() {
+        let dropped = self
+            .context
+            .input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect::<Vec<_>>());
+        let unknown =
+            dropped.iter().find(|path| !is_material(path) && !crate::panes::viewport::dropped::is_taken(path));
+        if let Some(path) = unknown {
+            self.messages.fail(format!(
+                "{} is nothing to drop here: materials are *.material.json, models .glb and .gltf, environments .hdr, .exr, \
+                 .hdre, .ktx2, .png and .jpg",
+                path.display()
+            ));
+        }
+        if let Some(path) = dropped.into_iter().find(|path| is_material(path)) {
             self.ask(Next::Open(path));
         }
     }

@@ -36,6 +36,9 @@ impl Editor {
         if entry(ui, "New", Command::New).clicked() {
             actions.push(Action::New);
         }
+        if ui.button("New from the library…").on_hover_text("Materials and templates to begin with").clicked() {
+            layout::show(&mut self.tree, Pane::Library);
+        }
         if entry(ui, "Open…", Command::Open).clicked() {
             actions.push(Action::Choose(Choose::Open));
         }

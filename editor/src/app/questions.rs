@@ -157,13 +157,36 @@ impl Editor {
                 }
             });
         }
+        self.show_instance(ui);
         self.show_outside(ui);
+    }
+
+    fn show_instance(&mut self, ui: &mut egui::Ui) {
+        let Some(base) = self.session.base().map(str::to_owned) else { return };
+        let text = if self.session.fits_its_file() {
+            format!("This is an instance of {base}: its name and the values of its parameters are its own.")
+        } else {
+            format!(
+                "This is an instance of {base} and cannot hold all that was changed. Undo that, or make a material of it."
+            )
+        };
+        let (mut open, mut make) = (false, false);
+        strip(ui, "instance", &text, |ui| {
+            open = ui.button("Open the base").on_hover_text("The material that this one follows").clicked();
+            let hint = "Write it whole to another file: it does not follow its base any more";
+            make = ui.button("Make a material of it…").on_hover_text(hint).clicked();
+        });
+        if open {
+            self.ask(Next::Open(self.session.directory().join(base)));
+        } else if make {
+            self.choose(crate::action::Choose::SaveAs);
+        }
     }
 
     fn show_outside(&mut self, ui: &mut egui::Ui) {
         let Some(outside) = &self.files.outside else { return };
-        let (can_reload, is_shown) = (outside.document.is_ok(), outside.is_shown);
-        let text = match &outside.document {
+        let (can_reload, is_shown) = (outside.read.is_ok(), outside.is_shown);
+        let text = match &outside.read {
             Ok(_) => "The file was changed by another program.".to_owned(),
             Err(why) => format!("The file was changed by another program and cannot be read: {why}"),
         };
@@ -175,13 +198,13 @@ impl Editor {
             keep =
                 ui.button("Keep mine").on_hover_text("Stay with what is here; saving writes over the file").clicked();
             if can_reload {
-                ui.toggle_value(&mut show, "Show what changed").on_hover_text("List the differences");
+                crate::panes::toggle(ui, &mut show, "Show what changed").on_hover_text("List the differences");
             }
         });
         if let Some(outside) = &mut self.files.outside {
             outside.is_shown = show;
-            if let (true, Ok(theirs)) = (show, &outside.document) {
-                let lines = differences(self.session.document(), theirs);
+            if let (true, Ok(theirs)) = (show, &outside.read) {
+                let lines = differences(self.session.document(), &theirs.document);
                 egui::Panel::top("differences").show(ui, |ui| {
                     ui.weak("In the file, compared with what is here:");
                     egui::ScrollArea::vertical().max_height(160.0).auto_shrink([false, true]).show(ui, |ui| {
@@ -238,7 +261,7 @@ fn strip(ui: &mut egui::Ui, id: &str, text: &str, add_buttons: impl FnOnce(&mut 
     let fill = theme::WARNING.gamma_multiply(0.18);
     let frame = egui::Frame::new().fill(fill).inner_margin(egui::Margin::symmetric(8, 4));
     egui::Panel::top(egui::Id::new(id)).frame(frame).show(ui, |ui| {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             ui.label(text);
             add_buttons(ui);
         });

@@ -12,11 +12,12 @@ use std::time::{Duration, SystemTime};
 
 use eframe::egui;
 use halfvector_graph::document::Document;
-use halfvector_graph::file::Loaded;
+use halfvector_graph::file::{FileError, Loaded, instance_to_json, replace, to_json};
 
 use crate::files::record::{Desk, Lost, Record};
 use crate::files::settings::Settings;
 use crate::files::{Folders, leftovers};
+use crate::session::Written;
 
 /// How often the open file is looked at.
 const POLL: Duration = Duration::from_secs(1);
@@ -31,7 +32,7 @@ pub(crate) enum Order {
         /// Where to.
         path: PathBuf,
         /// What.
-        document: Arc<Document>,
+        what: Written,
         /// Also when others have changed the file since it was read.
         over_changes: bool,
     },
@@ -72,13 +73,11 @@ pub(crate) enum Order {
 #[derive(Debug)]
 pub(crate) enum Report {
     /// A material was read, or not.
-    Opened(PathBuf, Result<Document, String>),
-    /// A file that is an instance was read: the material that it stands for.
-    OpenedInstance(PathBuf, Document),
+    Opened(PathBuf, Result<Loaded, String>),
     /// A material was written, or not.
-    Saved(PathBuf, Arc<Document>, Result<(), SaveFault>),
+    Saved(PathBuf, Written, Result<(), SaveFault>),
     /// Others have changed the open file: what stands there now, or why that cannot be read.
-    Changed(PathBuf, Result<Document, String>),
+    Changed(PathBuf, Result<Loaded, String>),
     /// Processes of other windows that have the open file open too.
     AlsoOpen(Vec<u32>),
     /// Unsaved work of windows that are gone.
@@ -263,21 +262,17 @@ impl Room {
         match order {
             Order::Open(path) => {
                 let report = match read(&path) {
-                    Ok(Loaded { document, is_instance: true, .. }) => {
-                        self.watched = None;
-                        Report::OpenedInstance(path, document)
-                    }
-                    Ok(Loaded { document, bytes, .. }) => {
-                        self.watched = Some(Watched::new(path.clone(), &bytes));
-                        Report::Opened(path, Ok(document))
+                    Ok(read) => {
+                        self.watched = Some(Watched::new(path.clone(), &read.bytes));
+                        Report::Opened(path, Ok(read))
                     }
                     Err(why) => Report::Opened(path, Err(why)),
                 };
                 self.tell(report);
             }
-            Order::Save { path, document, over_changes } => {
-                let saved = self.save(&path, &document, over_changes);
-                self.tell(Report::Saved(path, document, saved));
+            Order::Save { path, what, over_changes } => {
+                let saved = self.save(&path, &what, over_changes);
+                self.tell(Report::Saved(path, what, saved));
             }
             Order::Release => self.watched = None,
             Order::Watch { path, known } => self.watched = Some(Watched::since(path, known)),
@@ -298,15 +293,16 @@ impl Room {
         }
     }
 
-    fn save(&mut self, path: &Path, document: &Document, over_changes: bool) -> Result<(), SaveFault> {
+    fn save(&mut self, path: &Path, what: &Written, over_changes: bool) -> Result<(), SaveFault> {
         if let Some(watched) = self.watched.as_ref().filter(|watched| watched.path == path && !over_changes)
             && let Ok(bytes) = std::fs::read(path)
             && hash(&bytes) != watched.known
         {
             return Err(SaveFault::Changed);
         }
-        halfvector_graph::file::save(path, document).map_err(|error| SaveFault::Failed(error.to_string()))?;
-        let text = halfvector_graph::file::to_json(document);
+        let text = what.instance.as_ref().map_or_else(|| to_json(&what.document), instance_to_json);
+        let failed = |source| SaveFault::Failed(FileError::Write { path: path.into(), source }.to_string());
+        replace(path, text.as_bytes()).map_err(failed)?;
         self.watched = Some(Watched::new(path.to_owned(), text.as_bytes()));
         leftovers::clear(path);
         Ok(())
@@ -336,8 +332,7 @@ impl Room {
                     let changed = now != watched.known;
                     let path = watched.path.clone();
                     if changed {
-                        let read = read(&path).map(|loaded| loaded.document);
-                        self.tell(Report::Changed(path, read));
+                        self.tell(Report::Changed(path.clone(), read(&path)));
                     }
                 }
             }

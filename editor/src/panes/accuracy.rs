@@ -138,7 +138,11 @@ impl Accuracy {
     fn table(&self, ui: &mut egui::Ui) {
         let Some(first) = self.rows.first() else {
             if self.failed.is_none() {
-                ui.weak("Not measured yet.");
+                ui.weak(
+                    "Not measured yet. Measuring draws this material with the viewport's methods and with each other one, and \
+                     compares the pictures with a path-traced reference. The furnace test draws it in even light: what is \
+                     darker or brighter than the light loses energy, or makes it.",
+                );
             }
             return;
         };

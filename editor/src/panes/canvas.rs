@@ -9,6 +9,7 @@ mod adding;
 mod arrange;
 mod draw;
 mod edits;
+mod feedback;
 mod fields;
 mod fit;
 mod gesture;

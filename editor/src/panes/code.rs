@@ -197,7 +197,7 @@ impl Code {
             }
             if let Some(code) = code {
                 let count = code.shader.dropped.len();
-                ui.toggle_value(&mut self.shows_dropped, format!("Left out ({count})"))
+                crate::panes::toggle(ui, &mut self.shows_dropped, format!("Left out ({count})"))
                     .on_hover_text("What this shader does without, and why");
                 let size = format!("{} lines · {:.1} kB", code.lines.len(), code.bytes as f64 / 1e3);
                 ui.add(egui::Label::new(egui::RichText::new(size).weak()).truncate());

@@ -88,7 +88,7 @@ impl Cost {
         self.is_seen = true;
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
-                ui.toggle_value(&mut self.colors_graph, "Colour the graph")
+                crate::panes::toggle(ui, &mut self.colors_graph, "Colour the graph")
                     .on_hover_text("The costlier a node, the redder");
                 ui.separator();
                 if let Some(Ok(counted)) = &self.counted {

@@ -13,6 +13,7 @@ use halfvector_scene::{Scene, SceneMaterial};
 use crate::action::{Action, found};
 use crate::functions;
 use crate::panes::inspector::named_text;
+use crate::panes::toggle;
 use crate::pictures::Pictures;
 use crate::session::Session;
 use crate::theme;
@@ -131,8 +132,8 @@ impl Problems {
 
     fn bar(&mut self, ui: &mut egui::Ui, session: &Session) {
         ui.horizontal(|ui| {
-            ui.toggle_value(&mut self.errors, "Errors").on_hover_text("What keeps the material from being drawn");
-            ui.toggle_value(&mut self.warnings, "Warnings").on_hover_text("What may not be meant");
+            toggle(ui, &mut self.errors, "Errors").on_hover_text("What keeps the material from being drawn");
+            toggle(ui, &mut self.warnings, "Warnings").on_hover_text("What may not be meant");
             let field = TextEdit::singleline(&mut self.filter).hint_text("Filter").desired_width(140.0);
             let response = ui.add(field).on_hover_text("Only problems with these words");
             named_text(&response, &self.filter, "Filter problems");

@@ -30,18 +30,55 @@ pub(super) enum Material {
 }
 
 /// An instance as it is written.
-#[derive(Debug)]
-pub(super) struct Instance {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instance {
     /// Of the format.
-    pub(super) version: u32,
+    pub version: u32,
     /// The other material's name when absent.
-    pub(super) name: Option<String>,
+    pub name: Option<String>,
     /// The other material's file, from this one's folder.
-    pub(super) base: String,
+    pub base: String,
     /// Parameters by name, in the order of the file.
-    pub(super) set: Vec<(String, Value)>,
-    /// Fields of a newer version, kept for saving.
-    pub(super) unknown: serde_json::Map<String, serde_json::Value>,
+    pub set: Vec<(String, Value)>,
+    /// Fields of a newer version.
+    pub unknown: serde_json::Map<String, serde_json::Value>,
+}
+
+impl Instance {
+    /// The instance that stands for `now`: this one, which was read as `read`, with the values and the name of `now`. `None`
+    /// when they differ in more than an instance can hold. Where things lie on the canvas makes no difference: an instance has
+    /// no canvas of its own.
+    pub fn changed(&self, read: &Document, now: &Document) -> Option<Instance> {
+        let (mut instance, mut reached) = (self.clone(), read.clone());
+        if now.name != read.name {
+            instance.name = Some(now.name.clone());
+            reached.name.clone_from(&now.name);
+        }
+        for parameter in &read.parameters {
+            let socket = &parameter.socket;
+            let Some(value) = now.graph.value(socket).filter(|value| read.graph.value(socket) != Some(value)) else {
+                continue;
+            };
+            match instance.set.iter_mut().find(|(name, _)| *name == parameter.name) {
+                Some((_, set)) => *set = value.clone(),
+                None => instance.set.push((parameter.name.clone(), value.clone())),
+            }
+            let node = reached.graph.nodes.get_mut(&socket.node)?;
+            node.values.insert(socket.socket.clone(), value.clone());
+        }
+        (off_canvas(reached) == off_canvas(now.clone())).then_some(instance)
+    }
+}
+
+/// The document without what only says where things lie.
+fn off_canvas(mut document: Document) -> Document {
+    let graphs = document.groups.values_mut().map(|group| &mut group.graph).chain([&mut document.graph]);
+    for Graph { layout, frames, comments, .. } in graphs {
+        layout.clear();
+        frames.clear();
+        comments.clear();
+    }
+    document
 }
 
 /// Why an instance was not read.
@@ -119,7 +156,7 @@ pub enum InstanceError {
 pub(super) fn load(path: &Path) -> Result<Loaded, FileError> {
     let (material, bytes) = load_as(path, material_from_json)?;
     let instance = match material {
-        Material::Whole(document) => return Ok(Loaded { document: *document, bytes, is_instance: false }),
+        Material::Whole(document) => return Ok(Loaded { document: *document, bytes, instance: None }),
         Material::Instance(instance) => instance,
     };
     let in_file = |path: &Path, why: InstanceError| FileError::InFile {
@@ -133,6 +170,7 @@ pub(super) fn load(path: &Path) -> Result<Loaded, FileError> {
     // From the file that was asked for to the one that is a whole material.
     let mut seen = HashSet::from([real(path)]);
     let mut next = base_of(path, &instance);
+    let asked = instance.clone();
     let mut chain = vec![(path.to_path_buf(), instance)];
     let mut document = loop {
         let (user, _) = &chain[chain.len() - 1];
@@ -159,7 +197,7 @@ pub(super) fn load(path: &Path) -> Result<Loaded, FileError> {
         }
     };
     join(&mut document, chain, in_file)?;
-    Ok(Loaded { document, bytes, is_instance: true })
+    Ok(Loaded { document, bytes, instance: Some(asked) })
 }
 
 /// Makes of a whole material what a row of instances, the outermost first, stands for. What an outer one says counts.

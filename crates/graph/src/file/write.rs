@@ -8,12 +8,12 @@ use std::collections::{BTreeMap, HashMap};
 
 use serde_json::{Map, Value as Plain};
 
-use super::GroupFile;
 use super::read::parameter_key_of_plain;
+use super::{GroupFile, Instance};
 use crate::FORMAT_VERSION;
 use crate::document::{Document, Parameter, SocketRef, SurfaceSettings};
 use graph::kept_list;
-use value::{number, numbers, plain_json, push_unknown, quoted};
+use value::{number, numbers, plain_json, push_unknown, quoted, value_json};
 
 /// The document as text, in the fixed order; ends with a line break.
 pub fn to_json(document: &Document) -> String {
@@ -54,6 +54,17 @@ pub fn group_to_json(file: &GroupFile) -> String {
     if !file.functions.is_empty() {
         sections.push(block("functions", '{', '}', function_lines(&file.functions, None), 2));
     }
+    format!("{{\n{}\n}}\n", sections.join(",\n"))
+}
+
+/// An instance's file as text.
+pub fn instance_to_json(instance: &Instance) -> String {
+    let mut sections = vec![format!("  \"halfvector\": {}", instance.version)];
+    sections.extend(instance.name.as_ref().map(|name| format!("  \"name\": {}", quoted(name))));
+    sections.push(format!("  \"base\": {}", quoted(&instance.base)));
+    let set = instance.set.iter().map(|(name, value)| format!("{}: {}", quoted(name), value_json(value)));
+    sections.push(block("set", '{', '}', set.collect(), 2));
+    sections.extend(instance.unknown.iter().map(|(key, value)| format!("  {}: {}", quoted(key), plain_json(value))));
     format!("{{\n{}\n}}\n", sections.join(",\n"))
 }
 

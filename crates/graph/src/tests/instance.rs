@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::document::Document;
-use crate::file::{from_json, load, load_whole, to_json};
+use crate::file::{from_json, instance_to_json, load, load_whole, to_json};
 use crate::value::Value;
 
 const BASE: &str = r#"{"halfvector": 1, "name": "Paint", "nodes": {
@@ -62,12 +62,46 @@ fn instances_of_instances() {
     fs::create_dir(folder.path().join("b")).expect("a folder");
     fs::write(folder.path().join("b/first.material.json"), first).expect("written");
     let whole = load_whole(&folder.path().join("last.material.json")).expect("an instance");
-    assert!(whole.is_instance && whole.bytes.starts_with(b"{\"halfvector\": 1, \"base\": \"b/"));
+    assert!(whole.instance.is_some() && whole.bytes.starts_with(b"{\"halfvector\": 1, \"base\": \"b/"));
     let made = whole.document;
     assert_eq!((made.name.as_str(), image(&made)), ("Paint", "b/../base/maps/a.png"));
     assert_eq!(made.graph.nodes["surface"].values["perceptual_roughness"], Value::Number(0.5));
     assert_eq!(made.graph.nodes["tint"].values["b"], Value::Number(4.0), "the outer one decides");
-    assert!(!load_whole(&folder.path().join("base/paint.material.json")).expect("the base").is_instance);
+    assert!(load_whole(&folder.path().join("base/paint.material.json")).expect("the base").instance.is_none());
+}
+
+#[test]
+fn an_instance_holds_changed_values_and_nothing_else() {
+    let text = r#"{"halfvector": 1, "base": "base/paint.material.json", "set": {"tint": 3}}"#;
+    let folder = with("red.material.json", text);
+    let path = folder.path().join("red.material.json");
+    let read = load_whole(&path).expect("an instance");
+    let instance = read.instance.expect("an instance");
+    assert_eq!(instance.changed(&read.document, &read.document), Some(instance.clone()));
+
+    let mut now = read.document.clone();
+    now.name = "Red".to_owned();
+    let set = |document: &mut Document, node: &str, socket: &str, value: f32| {
+        document.graph.nodes.get_mut(node).expect("a node").values.insert(socket.to_owned(), Value::Number(value));
+    };
+    set(&mut now, "surface", "perceptual_roughness", 0.25);
+    set(&mut now, "tint", "b", 2.0);
+    now.graph.layout.insert("tint".to_owned(), [4.0, 5.0]);
+    let changed = instance.changed(&read.document, &now).expect("values alone");
+    fs::write(&path, instance_to_json(&changed)).expect("written");
+    let again = load_whole(&path).expect("an instance");
+    assert_eq!(again.instance.as_ref(), Some(&changed));
+    now.graph.layout.clone_from(&again.document.graph.layout);
+    assert_eq!(again.document, now);
+
+    set(&mut now, "surface", "metallic", 1.0);
+    assert_eq!(instance.changed(&read.document, &now), None, "no parameter of the base");
+
+    let newer = text.replace("1, ", "99, \"later\": [1], ");
+    fs::write(&path, newer).expect("written");
+    let read = load_whole(&path).expect("an instance");
+    let text = instance_to_json(&read.instance.expect("an instance"));
+    assert!(text.contains("\"halfvector\": 99") && text.contains("\"later\": [1]"), "{text}");
 }
 
 #[test]

@@ -32,13 +32,14 @@ fn scene(name: &str) -> Scene {
 #[test]
 fn materials_are_sound_and_in_the_programs_layout() {
     for path in files(".material.json") {
-        let file::Loaded { document, is_instance, .. } = file::load_whole(&path).unwrap();
+        let file::Loaded { document, instance, .. } = file::load_whole(&path).unwrap();
         let problems = check(&document, Library::standard());
         assert!(problems.is_empty(), "{}: {problems:?}", path.display());
-        if is_instance {
+        let text = std::fs::read_to_string(&path).unwrap();
+        if let Some(instance) = instance {
+            assert_eq!(file::instance_to_json(&instance), text, "{}", path.display());
             continue;
         }
-        let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(file::to_json(&document), text, "{}", path.display());
         for node in document.graph.nodes.keys() {
             assert!(

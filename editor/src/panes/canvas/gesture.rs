@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Stroke, StrokeKind, Vec2};
+use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Vec2};
 use halfvector_graph::document::{Link, NodeId, SocketRef, function_of, group_of};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::library::Library;
@@ -12,7 +12,6 @@ use halfvector_graph::operation::insert_on_link;
 use halfvector_graph::value::Value;
 
 use super::adding::Purpose;
-use super::draw::{self, Brush};
 use super::fit::{self, Loose, candidates, refusal};
 use super::guides::{self, Snapped};
 use super::hit::{self, Hit};
@@ -21,7 +20,6 @@ use super::sheet::{Card, Field, REROUTE_SIZE, Sheet, Side};
 use super::view::to_grid;
 use super::{Canvas, Desk, edits, moved};
 use crate::action::Action;
-use crate::theme;
 
 /// How near to a socket a wire may be dropped, in screen points.
 const DROP_REACH: f32 = 22.0;
@@ -75,7 +73,7 @@ pub(super) enum Gesture {
 
 /// Where a wire would end.
 #[derive(Clone, Debug, PartialEq)]
-enum Target {
+pub(super) enum Target {
     Nothing,
     /// Over a card whose sockets do not fit.
     Card,
@@ -385,59 +383,6 @@ impl Canvas {
         };
         sheet.cards.iter_mut().filter(|card| ids.contains(&card.id)).for_each(|card| card.shift = way);
     }
-
-    /// Paints what the pointer is doing.
-    pub(super) fn paint_gesture(
-        &mut self,
-        ui: &egui::Ui,
-        brush: &Brush<'_>,
-        desk: &Desk<'_>,
-        sheet: &Sheet,
-        pointer: Option<Pos2>,
-    ) {
-        let Some(at) = pointer else { return };
-        let lens = brush.lens;
-        match &mut self.gesture {
-            Gesture::Box { from, .. } => {
-                let rect = Rect::from_two_pos(lens.to_screen(*from), at);
-                let fill = theme::ACCENT.gamma_multiply(0.12);
-                brush.painter.rect(rect, 2.0, fill, Stroke::new(1.0, theme::ACCENT), StrokeKind::Inside);
-            }
-            Gesture::Move { snapped, .. } => {
-                for line in &snapped.lines {
-                    brush.painter.line_segment(line.map(|end| lens.to_screen(end)), Stroke::new(1.0, theme::ACCENT));
-                }
-            }
-            Gesture::Wire { loose, asked, .. } => {
-                let socket = loose.socket().clone();
-                let side = if matches!(loose, Loose::Output(..)) { Side::Output } else { Side::Input };
-                let Some(fixed) = sheet.find(&socket, side).map(|place| lens.to_screen(sheet.socket(place))) else {
-                    return;
-                };
-                let mut color = theme::socket_color(loose.ty());
-                let mut end = at;
-                if let Target::Socket(card, row) = target(sheet, desk, at, loose) {
-                    let link = loose.link(SocketRef::new(&sheet.cards[card].id, &sheet.cards[card].rows[row].name));
-                    if asked.as_ref().is_none_or(|(other, _)| *other != link) {
-                        let why = refusal(desk.session, &link);
-                        *asked = Some((link, why));
-                    }
-                    end = lens.to_screen(sheet.socket((card, row)));
-                    if let Some((_, Some(why))) = asked {
-                        color = theme::ERROR;
-                        draw::words(brush.painter, at, why, color, &brush.colors);
-                        super::tell_words(ui, why);
-                    }
-                    brush.ring(end, color);
-                }
-                match side {
-                    Side::Output => brush.loose_wire(fixed, end, color),
-                    _ => brush.loose_wire(end, fixed, color),
-                }
-            }
-            Gesture::Idle | Gesture::Pan | Gesture::Note { .. } | Gesture::Number { .. } => {}
-        }
-    }
 }
 
 /// Puts an id into a set, or takes it out.
@@ -516,7 +461,7 @@ fn wire_for(sheet: &Sheet, ids: &BTreeSet<NodeId>, desk: &Desk<'_>, at: Pos2) ->
 
 /// Where a wire that is dropped at a point would end: at the nearest socket of the right side; on a card at the first free
 /// socket that fits.
-fn target(sheet: &Sheet, desk: &Desk<'_>, at: Pos2, loose: &Loose) -> Target {
+pub(super) fn target(sheet: &Sheet, desk: &Desk<'_>, at: Pos2, loose: &Loose) -> Target {
     let wanted = if matches!(loose, Loose::Output(..)) { Side::Input } else { Side::Output };
     let own = loose.socket();
     let near = hit::socket_near(sheet, desk.lens, at, DROP_REACH, |side| side == wanted);

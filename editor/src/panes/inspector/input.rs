@@ -6,9 +6,11 @@ use halfvector_graph::context::CONTEXTS;
 use halfvector_graph::document::{Link, NodeId, Parameter, SocketRef, is_name};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::node_def::{Default as SocketDefault, Input, NodeDef};
+use halfvector_graph::resolve::Types;
 use halfvector_graph::value::{SocketType, Type, Value};
 
 use crate::action::Action;
+use crate::colors::nodes_of_colors;
 use crate::panes::inspector::number::Style;
 use crate::panes::inspector::row::{end_when_done, in_words, row};
 use crate::panes::inspector::thumbnail::Thumbnails;
@@ -26,6 +28,8 @@ pub(crate) struct Slot<'a> {
     pub(crate) ty: SocketType,
     /// Whether three or four numbers on it are a colour.
     pub(crate) is_color: bool,
+    /// What its numbers are kept between.
+    pub(crate) limits: Option<[f32; 2]>,
 }
 
 /// The value that an unconnected input has: the one set, or the definition's. `None` for contexts and empty image slots.
@@ -74,6 +78,31 @@ pub(crate) fn show(
             ui.indent("parameter", |ui| parameter::show(ui, session, place, actions));
         }
     });
+}
+
+/// Draws the value of a parameter of the material, within the range that this one states.
+pub(crate) fn value(
+    ui: &mut egui::Ui,
+    session: &Session,
+    parameter: &Parameter,
+    types: &Types<'_>,
+    actions: &mut Vec<Action>,
+) {
+    let socket = &parameter.socket;
+    let Some(of_node) = types.get(&socket.node) else { return };
+    let input = of_node.def.inputs.iter().find(|input| input.name == socket.socket);
+    let (Some(input), Some(ty)) = (input, of_node.input(&socket.socket)) else { return };
+    if ty == SocketType::Texture {
+        return;
+    }
+    let is_color = input.unit == "color"
+        || (input.ty == SocketType::Generic
+            && nodes_of_colors(&session.document().graph, types).contains(&*socket.node));
+    let input = &Input { range: parameter.range.or(input.range), ..input.clone() };
+    let slot = Slot { node: &socket.node, input, ty, is_color, limits: parameter.range };
+    let dot = Some(theme::socket_color(ty));
+    let name = RichText::new(parameter.label.as_deref().unwrap_or(&parameter.name));
+    row(ui, name, &hint(&slot), dot, |ui, label| widget(ui, session, &slot, socket, label, actions), None);
 }
 
 fn hint(slot: &Slot<'_>) -> String {
@@ -138,6 +167,9 @@ fn widget(
         (_, parts) => number::vector(ui, parts, style, label),
     };
     if response.changed() {
+        if let Some([low, high]) = slot.limits {
+            parts.iter_mut().for_each(|part| *part = part.max(low).min(high));
+        }
         let edit = Edit::SetValue { socket: socket.clone(), value: value_from(ty, &parts) };
         actions.push(Action::drag(format!("Set {}", in_words(&slot.input.name)), edit, socket.to_string()));
     }

@@ -4,13 +4,14 @@ use eframe::egui::{self, Checkbox, CollapsingHeader, ComboBox, RichText, TextEdi
 use halfvector_graph::check::{Severity, node_label, surface_node};
 use halfvector_graph::document::{AlphaMode, SurfaceSettings};
 use halfvector_graph::edit::Edit;
+use halfvector_graph::resolve::resolve_types;
 use halfvector_graph::value::Value;
 use halfvector_graph::wiring::Wiring;
 
 use crate::action::Action;
 use crate::panes::inspector::number::{self, Style};
-use crate::panes::inspector::parameter;
 use crate::panes::inspector::row::{end_when_done, named_text, row};
+use crate::panes::inspector::{input, parameter};
 use crate::session::Session;
 
 /// Draws the material.
@@ -96,6 +97,7 @@ fn parameters(ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
         ui.weak("None. Expose an input in its menu to let users of the material set it.");
         return;
     }
+    let types = resolve_types(&document.graph, session.library());
     let count = document.parameters.len();
     let mut moved = None;
     for (place, one) in document.parameters.iter().enumerate() {
@@ -119,7 +121,10 @@ fn parameters(ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
             if let Some(from) = row.response.dnd_release_payload::<usize>() {
                 moved = Some((*from, place));
             }
-            ui.indent("fields", |ui| parameter::show(ui, session, place, actions));
+            ui.indent("fields", |ui| {
+                input::value(ui, session, one, &types, actions);
+                parameter::show(ui, session, place, actions);
+            });
         });
     }
     if let Some((from, to)) = moved.filter(|(from, to)| from != to && *from < count)

@@ -78,7 +78,7 @@ pub(crate) fn show(
                 (ty, _) => ty,
             };
             let is_color = input.unit == "color" || (has_colors && input.ty == SocketType::Generic);
-            input::show(ui, session, &Slot { node: id, input, ty, is_color }, thumbnails, actions);
+            input::show(ui, session, &Slot { node: id, input, ty, is_color, limits: None }, thumbnails, actions);
         }
     });
 }

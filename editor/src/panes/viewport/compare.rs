@@ -200,8 +200,15 @@ impl Viewport {
         if let (true, Some(pointer)) = (response.dragged(), response.interact_pointer_pos()) {
             self.compare.divider = ((pointer.x - rect.left()) / rect.width().max(1.0)).clamp(0.0, 1.0);
         }
-        let color =
-            if response.hovered() || response.dragged() { crate::theme::ACCENT } else { Color32::from_gray(200) };
+        if response.has_focus() {
+            let filter = egui::EventFilter { horizontal_arrows: true, ..egui::EventFilter::default() };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+            let steps = |key| ui.input(|input| input.num_presses(key)) as f32;
+            let way = steps(egui::Key::ArrowRight) - steps(egui::Key::ArrowLeft);
+            self.compare.divider = (self.compare.divider + 0.02 * way).clamp(0.0, 1.0);
+        }
+        let is_held = response.hovered() || response.dragged() || response.has_focus();
+        let color = if is_held { crate::theme::ACCENT } else { Color32::from_gray(200) };
         let painter = ui.painter().with_clip_rect(rect);
         painter.vline(x, rect.y_range(), egui::Stroke::new(1.5, color));
         painter.circle(egui::pos2(x, rect.center().y), 6.0, color, egui::Stroke::new(1.0, Color32::from_gray(30)));
@@ -233,7 +240,11 @@ impl Viewport {
 
     fn paint_difference(&mut self, ui: &egui::Ui, rect: egui::Rect) {
         let compare = &mut self.compare;
-        let Some(found) = &compare.found else { return };
+        let Some(found) = &compare.found else {
+            let place = rect.left_bottom() + egui::vec2(10.0, -8.0);
+            caption(ui, place, egui::Align2::LEFT_BOTTOM, "Comparing …".to_owned());
+            return;
+        };
         let scale = compare.scale;
         if compare.texture.as_ref().is_none_or(|(made_for, _)| *made_for != scale) {
             let colors = found.errors.iter().map(|error| {

@@ -18,6 +18,11 @@ enum Kind {
     Picture,
 }
 
+/// Whether the file can be something to the picture.
+pub(crate) fn is_taken(path: &Path) -> bool {
+    kind(path).is_some()
+}
+
 fn kind(path: &Path) -> Option<Kind> {
     match path.extension()?.to_str()?.to_lowercase().as_str() {
         "glb" | "gltf" => Some(Kind::Model),

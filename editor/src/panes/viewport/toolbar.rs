@@ -7,6 +7,7 @@ use halfvector_graph::needs::ToneMap;
 use halfvector_scene::{BuiltinMesh, EnvironmentSource, MeshSource};
 
 use super::Viewport;
+use crate::panes::toggle;
 use crate::session::Session;
 
 /// What the file dialog is open for.
@@ -124,7 +125,7 @@ impl Viewport {
             Tool::Compare => menu(ui, &title, "Two pictures side by side, and how they differ", |ui| {
                 self.compare_menu(ui, session);
             }),
-            Tool::Turntable => ui.toggle_value(&mut self.turntable, title).on_hover_text("Turns the view by itself"),
+            Tool::Turntable => toggle(ui, &mut self.turntable, title).on_hover_text("Turns the view by itself"),
             Tool::Frame => ui.button(title).on_hover_text("Brings everything into view (F, double click)"),
         };
         if tool == Tool::Frame && shown.clicked() {
