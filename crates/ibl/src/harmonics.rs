@@ -9,8 +9,9 @@
 
 mod fourier;
 mod legendre;
+mod low;
 mod quadrature;
 mod spectrum;
 
 pub(crate) use quadrature::gauss_legendre;
-pub(crate) use spectrum::{Grid, MAX_BAND, Spectrum};
+pub(crate) use spectrum::{Grid, MAX_BAND, MAX_ROWS, Spectrum};

@@ -14,6 +14,9 @@ pub(crate) const LEVEL_ENTRY_BYTES: usize = 24;
 /// Key of which way rows and columns run; its value for cube maps is "rd", right and down.
 pub(crate) const KEY_ORIENTATION: &str = "KTXorientation";
 
+/// Key of which stored channel is read as which: four letters for red, green, blue and alpha.
+pub(crate) const KEY_SWIZZLE: &str = "KTXswizzle";
+
 /// Key of the program that wrote the file.
 pub(crate) const KEY_WRITER: &str = "KTXwriter";
 

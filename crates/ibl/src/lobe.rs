@@ -118,7 +118,7 @@ fn basis(n: [f64; 3]) -> [[f64; 3]; 2] {
 mod tests {
     use super::*;
     use crate::equirect::{Equirect, direction_from_equirect};
-    use crate::harmonics::{MAX_BAND, Spectrum};
+    use crate::harmonics::{MAX_BAND, MAX_ROWS, Spectrum};
     use crate::kernel::Lobe;
     use crate::resample::cube_from_equirect;
 
@@ -136,7 +136,7 @@ mod tests {
             }
         }
         let source = cube_from_equirect(&map, 256);
-        let spectrum = Spectrum::from_equirect(&map, MAX_BAND, 2);
+        let spectrum = Spectrum::from_equirect(&map, MAX_BAND, MAX_ROWS, 2);
         let wide = spectrum.synthesized(&Lobe::Ggx(MIN_ALPHA).kernel(MAX_BAND), Lobe::Ggx(MIN_ALPHA).grid_rows());
         for alpha in [0.0012, 0.0025, 0.006] {
             let lobe = NarrowLobe::new(&source, alpha, MIN_ALPHA);

@@ -30,7 +30,7 @@ pub fn bake_filtered_by<E>(
     let roughness = level_roughness(options, size);
     let source = decoded(environment, options.decode_report);
     let (map, level_0) = match &*source {
-        Source::Equirect(map) => (Cow::Borrowed(map), options.quality.level_0(map, size)),
+        Source::Equirect(map) => (Cow::Borrowed(map), cube_from_equirect(map, size)),
         Source::Levels(stored) if serves(stored, options, &roughness, size) => return Ok(bake(environment, options)),
         Source::Levels(stored) => (Cow::Owned(equirect_from_cube(&stored.levels[0])), stored.levels[0].resized(size)),
     };
@@ -48,7 +48,7 @@ pub fn bake_filtered_by<E>(
     jobs.push(FilterJob { alpha: 1.0, size: options.irradiance_size.clamp(1, 512) });
     let mut filtered = filter(&map, &jobs)?.into_iter();
 
-    let radiance_sh = radiance_coefficients(&Spectrum::from_equirect(&map, 3, 2));
+    let radiance_sh = radiance_coefficients(&Spectrum::low(&map));
     let mut baked = BakedEnvironment {
         radiance: Vec::new(),
         slope: Vec::new(),

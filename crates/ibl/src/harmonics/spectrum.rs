@@ -3,6 +3,7 @@
 use super::fourier::{Complex, Fourier};
 use super::gauss_legendre;
 use super::legendre::{LANES, Lanes, Order};
+use super::low::low_orders;
 use crate::equirect::{Equirect, equirect_from_direction};
 use pulp::NullaryFnOnce;
 use rayon::prelude::*;
@@ -11,12 +12,12 @@ use std::f64::consts::PI;
 /// The highest degree that [`Spectrum::from_equirect`] takes.
 pub(crate) const MAX_BAND: usize = 1023;
 
-/// The largest map that is analysed as it is; larger ones are averaged down, which changes nothing within [`MAX_BAND`].
+/// The largest map that is analysed as it is; larger ones are averaged down, which changes little within [`MAX_BAND`].
 const MAX_COLUMNS: usize = 2048;
-const MAX_ROWS: usize = 1024;
+pub(crate) const MAX_ROWS: usize = 1024;
 
 /// Real and imaginary part of red, green and blue.
-type Channels = [f64; 6];
+pub(super) type Channels = [f64; 6];
 
 /// The spherical-harmonic coefficients of an environment: of f(theta, phi) = sum over l and m of c_lm P_lm(cos theta)
 /// exp(i m phi), with theta from +Y and phi = atan2(z, x). f is real, so m >= 0 is enough.
@@ -36,12 +37,15 @@ struct NodeBlock {
 
 impl Spectrum {
     /// The coefficients up to degree `band` of a map taken as constant within each texel, each texel with its exact area.
+    /// Maps of more than `max_rows` rows are averaged down first, but for degrees 0 to 3, which are those of all its texels.
     ///
     /// `more_nodes`: latitudes within each row beyond those that follow the functions of the highest degree to a few per
     /// cent. With two more all degrees are exact to 1e-4; without, the lower half is, and kernels leave little of the rest.
-    pub(crate) fn from_equirect(map: &Equirect, band: usize, more_nodes: usize) -> Spectrum {
+    pub(crate) fn from_equirect(map: &Equirect, band: usize, max_rows: usize, more_nodes: usize) -> Spectrum {
         let band = band.min(MAX_BAND);
-        let (width, height) = (analysed_columns(map.width), map.height.min(MAX_ROWS));
+        let low = low_orders(map);
+        let height = map.height.min(max_rows).min(MAX_ROWS);
+        let width = analysed_columns((map.width * height).div_ceil(map.height).max(1));
         let reduced;
         let map = if (width, height) == (map.width, map.height) {
             map
@@ -64,7 +68,16 @@ impl Spectrum {
                 })
             })
             .collect();
-        Spectrum { orders }
+        let mut spectrum = Spectrum { orders };
+        for (coefficients, low) in spectrum.orders.iter_mut().zip(low) {
+            coefficients.iter_mut().zip(low).for_each(|(coefficient, low)| *coefficient = low);
+        }
+        spectrum
+    }
+
+    /// Degrees 0 to 3 alone, of all texels of a map.
+    pub(crate) fn low(map: &Equirect) -> Spectrum {
+        Spectrum { orders: low_orders(map).into() }
     }
 
     /// The coefficient of degree l and order m, m <= l: real and imaginary part for each colour channel.
@@ -401,7 +414,7 @@ mod tests {
     #[test]
     fn low_harmonics_come_back() {
         let f = |d: [f64; 3]| [1.0 + 0.5 * d[0], 2.0 + d[1] * d[2], 1.0 + 0.3 * d[2]].map(|x| x as f32);
-        let spectrum = Spectrum::from_equirect(&Equirect::from_fn(512, 256, f), 16, 2);
+        let spectrum = Spectrum::from_equirect(&Equirect::from_fn(512, 256, f), 16, MAX_ROWS, 2);
         let y00 = (4.0 * PI).sqrt();
         assert!((spectrum.coefficient(0, 0)[0][0] - y00).abs() < 1e-4);
         let grid = spectrum.synthesized(&[1.0; 17], 64);
@@ -418,7 +431,7 @@ mod tests {
     fn constants_of_any_shape_stay() {
         for (width, height) in [(1, 1), (2, 1), (3, 5), (100, 51), (64, 32), (2050, 3)] {
             let map = Equirect { width, height, pixels: vec![[1.0, 2.0, 0.25]; width * height] };
-            let spectrum = Spectrum::from_equirect(&map, 40, 2);
+            let spectrum = Spectrum::from_equirect(&map, 40, MAX_ROWS, 2);
             let grid = spectrum.synthesized(&[1.0; 41], 32);
             for texel in &grid.texels {
                 for (value, exact) in texel.iter().zip([1.0, 2.0, 0.25]) {

@@ -26,6 +26,7 @@ const MAX_TEXELS_PER_BYTE: usize = 65536;
 
 /// Reads the bytes of an OpenEXR file.
 fn read_part(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
+    check_windows(bytes)?;
     let reader = exr::block::read(Cursor::new(bytes), false).map_err(|why| explained(why, "header"))?;
     reader.headers().iter().try_for_each(|header| check_header(header, bytes.len(), limits))?;
     let (part, channels) = suitable_part(reader.headers())?;
@@ -150,6 +151,50 @@ fn read_line(line: &LineRef<'_>, kind: SampleType, target: &mut [[f32; 3]], c: u
         SampleType::F32 => put(line, target, c, |x: f32| x),
         SampleType::U32 => put(line, target, c, |x: u32| x as f32),
     }
+}
+
+/// Refuses windows that hold nothing or overflow, which the decoder takes as others: it exchanges their corners.
+///
+/// The header's attributes follow one another: name and type, each with a NUL, a length of four bytes, the value. What is not so is
+/// the decoder's to name.
+fn check_windows(bytes: &[u8]) -> Result<(), Fault> {
+    // Behind the magic number and the version.
+    let mut rest = bytes.get(8..).unwrap_or_default();
+    let text = |rest: &mut &[u8]| -> Option<String> {
+        let end = rest.iter().take(256).position(|&byte| byte == 0)?;
+        let found = String::from_utf8_lossy(&rest[..end]).into_owned();
+        *rest = &rest[end + 1..];
+        Some(found)
+    };
+    // A header ends with an empty name; of several headers the last is followed by another.
+    let is_one_part = bytes.get(5).is_none_or(|flags| flags & 0x10 == 0);
+    let mut before = String::new();
+    while let Some(name) = text(&mut rest) {
+        if name.is_empty() && (is_one_part || before.is_empty()) {
+            break;
+        }
+        before = name;
+        if before.is_empty() {
+            continue;
+        }
+        let Some((kind, length)) = text(&mut rest).zip(rest.split_first_chunk::<4>()) else { break };
+        let (length, after) = (u32::from_le_bytes(*length.0) as usize, length.1);
+        let Some((value, after)) = after.split_at_checked(length) else { break };
+        rest = after;
+        if kind == "box2i" && length == 16 && ["dataWindow", "displayWindow"].contains(&before.as_str()) {
+            let number = |i: usize| i64::from(i32::from_le_bytes(std::array::from_fn(|k| value[4 * i + k])));
+            let [x_min, y_min, x_max, y_max] = [0, 1, 2, 3].map(number);
+            let told = format!("from ({x_min}, {y_min}) to ({x_max}, {y_max})");
+            if x_max < x_min || y_max < y_min {
+                return Err(field(before, format!("{told} it holds nothing; save the file again")));
+            }
+            let most = i64::from(i32::MAX / 2);
+            if [x_min, y_min, x_max, y_max].iter().any(|x| x.abs() >= most) {
+                return Err(field(before, format!("{told} is more than a file can hold; save the file again")));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Refuses sizes that the file cannot hold and more channels than pictures have.

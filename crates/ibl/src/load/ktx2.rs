@@ -10,8 +10,8 @@ use crate::bake::STEEPEST;
 use crate::cube::Cube;
 use crate::equirect::Equirect;
 use crate::ktx2::{
-    ALPHA_SLOPE, HEADER_BYTES, IDENTIFIER, KEY_ALPHA, KEY_CONTENT, KEY_ORIENTATION, KEY_ROUGHNESS, LEVEL_ENTRY_BYTES,
-    RGB9E5, RGBA16F, RGBA32F, color_from_rgb9e5,
+    ALPHA_SLOPE, HEADER_BYTES, IDENTIFIER, KEY_ALPHA, KEY_CONTENT, KEY_ORIENTATION, KEY_ROUGHNESS, KEY_SWIZZLE,
+    LEVEL_ENTRY_BYTES, RGB9E5, RGBA16F, RGBA32F, color_from_rgb9e5,
 };
 use crate::save::CubeContent;
 use descriptor::Descriptor;
@@ -24,29 +24,32 @@ use std::ops::Range;
 pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
     let header = Header::parsed(bytes, limits)?;
     let pairs = KeyValues::parsed(bytes)?;
-    if let Some(orientation) = pairs.text(KEY_ORIENTATION)
+    if let Some(orientation) = pairs.text(KEY_ORIENTATION)?
         && orientation != "rd"
     {
         return Err(field(KEY_ORIENTATION, format!("\"{orientation}\" is not \"rd\", rows from the top; save it so")));
     }
+    let swizzle = pairs.text(KEY_SWIZZLE)?.map_or(Ok(Swizzle::NONE), Swizzle::parsed)?;
+    let decoded = |texel: &[u8]| swizzle.colour(header.coding.decoded(texel));
     if header.faces == 1 {
         let plain = header.level_bytes(bytes, 0)?;
-        let pixels = plain.chunks_exact(header.coding.bytes()).map(|texel| header.coding.decoded(texel)).collect();
+        let pixels = plain.chunks_exact(header.coding.bytes()).map(decoded).collect();
         let map = Equirect { width: header.width, height: header.height, pixels };
         let low_dynamic_range = header.coding.low_dynamic_range();
         let notes = header.note.into_iter().collect();
         return Ok(Content::Picture(Picture { map, low_dynamic_range, notes }));
     }
     let mut notes: Vec<String> = header.note.clone().into_iter().collect();
-    if pairs.text(KEY_CONTENT) == Some(CubeContent::IrradianceOverPi.name()) {
+    if pairs.text(KEY_CONTENT)? == Some(CubeContent::IrradianceOverPi.name()) {
         notes.push("it holds diffuse irradiance, and is taken as if that were the light itself".to_owned());
     }
-    let roughness = match pairs.text(KEY_ROUGHNESS) {
+    let roughness = match pairs.text(KEY_ROUGHNESS)? {
         Some(text) => Some(roughness_list(text, header.levels.len()).map_err(|why| field(KEY_ROUGHNESS, why))?),
         None => None,
     };
     let used = if roughness.is_some() { header.levels.len() } else { 1 };
-    let alpha = (pairs.text(KEY_ALPHA) == Some(ALPHA_SLOPE)).then(|| header.coding.alpha()).flatten();
+    let is_slope = pairs.text(KEY_ALPHA)? == Some(ALPHA_SLOPE) && swizzle.keeps_alpha;
+    let alpha = is_slope.then(|| header.coding.alpha()).flatten();
     let (mut levels, mut slope) = (Vec::new(), Vec::new());
     for level in 0..used {
         let plain = header.level_bytes(bytes, level)?;
@@ -54,7 +57,7 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Content, Fault> {
         if let (Some(alpha), true) = (alpha, roughness.is_some()) {
             slope.push(texels.clone().map(|texel| finite(alpha(texel))).collect());
         }
-        let texels = texels.map(|texel| header.coding.decoded(texel)).collect();
+        let texels = texels.map(decoded).collect();
         levels.push(Cube { size: (header.width >> level).max(1), texels });
     }
     let lobe = roughness.map_or(StoredLobe::Unknown, StoredLobe::Ggx);
@@ -409,6 +412,13 @@ fn key_value_range(bytes: &[u8]) -> Result<Range<usize>, Fault> {
     if length > bytes.len() - descriptor_end {
         return Err(field("kvdByteLength", "the key/values go beyond the file's end; the header is damaged"));
     }
+    // Each pair is filled up to four bytes, the last one, too.
+    if !length.is_multiple_of(4) {
+        return Err(field(
+            "kvdByteLength",
+            format!("{length} is no multiple of 4, as pairs are; the header is damaged"),
+        ));
+    }
     Ok(descriptor_end..descriptor_end + length)
 }
 
@@ -433,8 +443,45 @@ impl<'a> KeyValues<'a> {
     }
 
     /// The text of a key, without the NUL that may end it.
-    fn text(&self, key: &str) -> Option<&'a str> {
-        let (_, value) = self.0.iter().find(|(found, _)| *found == key.as_bytes())?;
-        std::str::from_utf8(value).ok().map(|text| text.trim_end_matches('\0'))
+    fn text(&self, key: &str) -> Result<Option<&'a str>, Fault> {
+        let Some((_, value)) = self.0.iter().find(|(found, _)| *found == key.as_bytes()) else { return Ok(None) };
+        match std::str::from_utf8(value) {
+            Ok(text) => Ok(Some(text.trim_end_matches('\0'))),
+            Err(_) => Err(field(key, "its value is no text in UTF-8; the file is damaged")),
+        }
+    }
+}
+
+/// Which stored channel is to be read as which colour: the four letters of [`KEY_SWIZZLE`].
+#[derive(Clone, Copy)]
+struct Swizzle {
+    /// For red, green and blue a stored colour, or the number that stands for it.
+    colours: [Result<usize, f32>; 3],
+    keeps_alpha: bool,
+}
+
+impl Swizzle {
+    const NONE: Swizzle = Swizzle { colours: [Ok(0), Ok(1), Ok(2)], keeps_alpha: true };
+
+    fn parsed(text: &str) -> Result<Swizzle, Fault> {
+        let &[r, g, b, alpha] = text.as_bytes() else {
+            return Err(field(KEY_SWIZZLE, format!("\"{text}\" is not four letters")));
+        };
+        if !text.bytes().all(|letter| b"rgba01".contains(&letter)) {
+            return Err(field(KEY_SWIZZLE, format!("\"{text}\" has other letters than r, g, b, a, 0 and 1")));
+        }
+        let channel = |letter: u8| match letter {
+            b'r' => Ok(Ok(0)),
+            b'g' => Ok(Ok(1)),
+            b'b' => Ok(Ok(2)),
+            b'0' => Ok(Err(0.0)),
+            b'1' => Ok(Err(1.0)),
+            _ => Err(field(KEY_SWIZZLE, format!("\"{text}\" takes a colour from alpha; save colours as colours"))),
+        };
+        Ok(Swizzle { colours: [channel(r)?, channel(g)?, channel(b)?], keeps_alpha: alpha == b'a' })
+    }
+
+    fn colour(&self, stored: [f32; 3]) -> [f32; 3] {
+        self.colours.map(|channel| channel.map_or_else(|number| number, |c| stored[c]))
     }
 }

@@ -2,8 +2,8 @@
 
 use halfvector_ibl::environment::{dfg_from_table, environment_sample, environment_sample_hermite, irradiance_sh2};
 use halfvector_ibl::{
-    BakeOptions, BakedEnvironment, Cube, DFG_SIZE, Equirect, LevelMap, Prefilter, Quality, Visibility, bake,
-    bake_while, bake_with_progress, cube_from_equirect, dfg, dfg_table, direction_from_equirect, direction_from_face,
+    BakeOptions, BakedEnvironment, Cube, DFG_SIZE, Equirect, LevelMap, Prefilter, Visibility, bake, bake_while,
+    bake_with_progress, cube_from_equirect, dfg, dfg_table, direction_from_equirect, direction_from_face,
     face_from_direction, sky, studio, texel_solid_angle, white,
 };
 use std::f64::consts::PI;
@@ -68,7 +68,8 @@ fn fine_maps_do_not_alias() {
     for x in cube.texels.iter().flatten() {
         assert!((x - 0.5).abs() < 0.06, "{x}");
     }
-    // A map only a little finer than the cube is not halved first, and still evens out.
+    // Of a map only a little finer than the cube a texel holds a square and some of its neighbours: no mean is even, but
+    // none is as uneven as the map.
     let map = Equirect {
         width: 128,
         height: 64,
@@ -78,7 +79,7 @@ fn fine_maps_do_not_alias() {
     let squares: f32 = cube.texels.iter().map(|texel| (texel[0] - 0.5).powi(2)).sum();
     let deviation = (squares / cube.texels.len() as f32).sqrt();
     println!("chequers a little finer than the cube: {deviation}");
-    assert!(deviation < 0.11, "{deviation}");
+    assert!(deviation < 0.2, "{deviation}");
 
     let mut lamp = Equirect { width: 1024, height: 512, pixels: vec![[0.0; 3]; 1024 * 512] };
     lamp.pixels[200 * 1024 + 333] = [1000.0; 3];
@@ -88,43 +89,7 @@ fn fine_maps_do_not_alias() {
         c.texels.iter().enumerate().map(|(k, texel)| f64::from(texel[0]) * share(k)).sum()
     };
     let (kept, whole) = (mean(&cube), lamp.mean()[0]);
-    assert!((kept / whole - 1.0).abs() < 0.1, "{kept} of {whole}");
-}
-
-/// A lamp of one texel, however near a pole, where a thousand columns meet in a texel of the cube, counts in a preview with
-/// its solid angle and from its own place; white stays white there.
-#[test]
-fn previews_keep_lamps_at_the_poles() {
-    let preview = |map: Equirect, size: usize| {
-        let options = BakeOptions { levels: Some(1), quality: Quality::Preview, ..small(size) };
-        bake(&map.into(), &options).radiance.swap_remove(0)
-    };
-    let mean = |cube: &Cube| -> f64 {
-        let share = |k: usize| texel_solid_angle(cube.size, k % cube.size, k / cube.size % cube.size) / (4.0 * PI);
-        cube.texels.iter().enumerate().map(|(k, texel)| f64::from(texel[0]) * share(k)).sum()
-    };
-    let (width, height) = (1024, 512);
-    for (row, column) in [(0, 5), (3, 700), (3, 701), (20, 130), (60, 500), (511, 9), (508, 300), (440, 801)] {
-        let mut map = Equirect { width, height, pixels: vec![[0.1; 3]; width * height] };
-        map.pixels[row * width + column] = [65504.0; 3];
-        let whole = map.mean()[0] - f64::from(0.1f32);
-        let cube = preview(map, 256);
-        let kept = mean(&cube) - f64::from(0.1f32);
-        println!("row {row}: {kept:.3e} of {whole:.3e}");
-        assert!((kept / whole - 1.0).abs() < 0.01, "row {row}: {kept} of {whole}");
-        let brightest = (0..cube.texels.len()).max_by(|&a, &b| cube.texels[a][0].total_cmp(&cube.texels[b][0]));
-        let k = brightest.expect("a cube has texels");
-        let place = |i: usize| (2.0 * i as f64 + 1.0) / 256.0 - 1.0;
-        let found = direction_from_face(k / (256 * 256), place(k % 256), place(k / 256 % 256));
-        let lamp = direction_from_equirect((column as f64 + 0.5) / 1024.0, (row as f64 + 0.5) / 512.0);
-        let length = found.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let distance = (0..3).map(|c| (found[c] / length - lamp[c]).powi(2)).sum::<f64>().sqrt();
-        assert!(distance < 3.0 * PI / 512.0, "row {row}: {distance} away");
-    }
-    for (width, height, size) in [(1024, 512, 256), (9, 200, 64), (7, 5, 2), (2, 2, 1), (1, 3, 1)] {
-        let even = preview(Equirect { width, height, pixels: vec![[1.0; 3]; width * height] }, size);
-        assert!(even.texels.iter().flatten().all(|x| (x - 1.0).abs() < 1e-6), "{width} x {height}");
-    }
+    assert!((kept / whole - 1.0).abs() < 1e-3, "{kept} of {whole}");
 }
 
 /// The value steps between two texels that share an edge of the cube are as large as those inside the faces.

@@ -164,3 +164,32 @@ fn crops_and_cubes_are_refused() {
     cube.layer_data.attributes.environment_map = Some(attribute::EnvironmentMap::Cube);
     assert!(written(cube).contains("envmap"));
 }
+
+/// Windows that hold nothing, or more than numbers can count, are named; the decoder would exchange their corners.
+#[test]
+fn windows_of_no_size() {
+    let color =
+        |name| layer(name, Encoding::SMALL_LOSSLESS, vec![("R", floats(0)), ("G", floats(1)), ("B", floats(2))]);
+    for bytes in [file(vec![color("x")]), file(vec![color("a"), color("b")])] {
+        for name in ["dataWindow", "displayWindow"] {
+            let start = format!("{name}\0box2i\0\x10\0\0\0").into_bytes();
+            let places = bytes.windows(start.len()).enumerate().filter(|(_, window)| **window == *start);
+            for (at, _) in places {
+                for (corners, what) in [
+                    ([0, 0, -1, 3], "holds nothing"),
+                    ([0, 0, 7, -1], "holds nothing"),
+                    ([5, 0, 4, 3], "holds nothing"),
+                    ([0, 0, i32::MAX, 3], "more than a file can hold"),
+                    ([i32::MIN, 0, i32::MAX, 3], "more than a file can hold"),
+                ] {
+                    let mut lying = bytes.clone();
+                    for (i, corner) in corners.into_iter().enumerate() {
+                        lying[at + start.len() + 4 * i..][..4].copy_from_slice(&i32::to_le_bytes(corner));
+                    }
+                    let error = load(&lying, "x.exr").map(|_| ()).expect_err(what).to_string();
+                    assert!(error.contains(&format!("{name}: ")) && error.contains(what), "{error}");
+                }
+            }
+        }
+    }
+}

@@ -304,6 +304,8 @@ fn lying_ktx2_headers_name_the_field() {
         (with(166, &[2]), "transferFunction"),
         (with(172, &[16]), "bytesPlane0"),
         (with(60, &[0xff; 4]), "kvdByteLength"),
+        (with(60, &(place(60) + 2).to_le_bytes()), "kvdByteLength: "),
+        (with(60, &(place(60) - 1).to_le_bytes()), "kvdByteLength: "),
         (with(44, &[1]), "supercompressionScheme"),
         (with(44, &[77]), "supercompressionScheme"),
         (with(44, &[2]), "level 0"),
@@ -346,6 +348,63 @@ fn ktx2_headers_of_others() {
     file[descriptor + 13] = 9;
     let notes = load(&file, "x").expect("sound").notes;
     assert!(notes.iter().any(|note| note.contains("colorPrimaries (9)")), "{notes:?}");
+}
+
+/// A file of others, of one level and one key/value; `bits` of each of some channels.
+fn foreign_ktx2(vk_format: u32, channels: usize, bits: u8, pair: &[u8], texels: &[u8]) -> Vec<u8> {
+    let texel = channels * usize::from(bits) / 8;
+    let mut file = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
+    let (descriptor_at, descriptor) = (80 + 24, 28 + 16 * channels);
+    let pairs = if pair.is_empty() { 0 } else { 4 + pair.len().next_multiple_of(4) };
+    let pairs_at = descriptor_at + descriptor;
+    // Levels stand at multiples of 4 and of a texel: here of both at once.
+    let level_at = (pairs_at + pairs).next_multiple_of(4 * texel);
+    for number in [vk_format, u32::from(bits / 8), 2, 2, 0, 0, 6, 1, 0] {
+        file.extend(number.to_le_bytes());
+    }
+    for number in [descriptor_at, descriptor, if pairs > 0 { pairs_at } else { 0 }, pairs, 0, 0, 0, 0] {
+        file.extend((number as u32).to_le_bytes());
+    }
+    for number in [level_at, texels.len(), texels.len()] {
+        file.extend((number as u64).to_le_bytes());
+    }
+    file.extend((descriptor as u32).to_le_bytes());
+    file.extend([0; 4]);
+    file.extend([2, 0, (descriptor - 4) as u8, 0, 1, 1, 1, 0, 0, 0, 0, 0, texel as u8, 0, 0, 0, 0, 0, 0, 0]);
+    file.resize(pairs_at, 0);
+    if pairs > 0 {
+        file.extend((pair.len() as u32).to_le_bytes());
+        file.extend(pair);
+    }
+    file.resize(level_at, 0);
+    file.extend(texels);
+    file
+}
+
+/// Three channels, whose texels are no multiple of four bytes: levels stand at multiples of both. And colours that are stored in
+/// another order are put in theirs, or refused by the key's name.
+#[test]
+fn ktx2_channels_of_others() {
+    let bytes: Vec<u8> = [51u8, 102, 255].repeat(24);
+    let halves: Vec<u8> =
+        [0.25f32, 0.5, 2.0].repeat(24).into_iter().flat_map(|x| half::f16::from_f32(x).to_le_bytes()).collect();
+    let floats: Vec<u8> = [0.25f32, 0.5, 2.0].repeat(24).into_iter().flat_map(f32::to_le_bytes).collect();
+    let texel = |file: &[u8]| stored(load(file, "x").expect("sound")).levels[0].texels[7];
+    assert_eq!(texel(&foreign_ktx2(23, 3, 8, b"", &bytes)), [51.0 / 255.0, 102.0 / 255.0, 1.0]);
+    assert_eq!(texel(&foreign_ktx2(90, 3, 16, b"", &halves)), [0.25, 0.5, 2.0]);
+    assert_eq!(texel(&foreign_ktx2(106, 3, 32, b"", &floats)), [0.25, 0.5, 2.0]);
+    let with = |letters: &[u8]| {
+        let pair = [b"KTXswizzle\0", letters, b"\0"].concat();
+        foreign_ktx2(106, 3, 32, &pair, &floats)
+    };
+    assert_eq!(texel(&with(b"rgba")), [0.25, 0.5, 2.0]);
+    assert_eq!(texel(&with(b"bgr1")), [2.0, 0.5, 0.25]);
+    assert_eq!(texel(&with(b"rrr1")), [0.25; 3]);
+    assert_eq!(texel(&with(b"g01a")), [0.5, 0.0, 1.0]);
+    for letters in [&b"aaa1"[..], b"rgb", b"xyzw", b"rgbx", b"\xff\xff\xff\xff", b""] {
+        let error = load(&with(letters), "x").map(|_| ()).expect_err("refused").to_string();
+        assert!(error.contains("KTXswizzle: "), "{error}");
+    }
 }
 
 /// The level index says where levels stand: with level 0 first and room between them it is as good a file.

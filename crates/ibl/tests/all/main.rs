@@ -3,6 +3,7 @@
 
 mod albedo;
 mod bake;
+mod energy;
 mod exr;
 mod files;
 mod hard;
