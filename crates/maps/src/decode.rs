@@ -3,17 +3,20 @@
 //! Sizes are checked against [`Limits`] before the texels are allocated. A file that is cut short, lies about its size or
 //! is not an image gives an error; none gives a panic. What a file says about its colours is kept beside the values and
 //! applied when they are taken as colours. EXIF orientation is not applied (a texture is stored as its UVs expect it), nor
-//! is alpha divided out. Environments (.hdr, .exr, .hdre) are another crate's.
+//! is alpha divided out; of animations and files of several images one is read; notes say so. Environments (.hdr, .exr,
+//! .hdre) are another crate's.
 
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use image::error::{ImageError, UnsupportedErrorKind};
+use image::metadata::Orientation;
 use image::{ColorType, ImageDecoder, ImageFormat, ImageReader};
 use rayon::prelude::*;
 
 mod format;
 mod jpeg;
+mod lzw;
 mod stated;
 mod tga;
 mod tiff;
@@ -223,6 +226,9 @@ fn decode_as(format: ImageFormat, bytes: &[u8], limits: Limits) -> Result<Parts,
         let size = [[a, b, c, d], [e, f, g, h]].map(u32::from_be_bytes);
         check_size(name, size, 4, 0, limits)?;
     }
+    if format == ImageFormat::WebP && webp_is_cut(bytes) {
+        return Err(DecodeError::Truncated { format: name });
+    }
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut inner = image::Limits::no_limits();
     // A PNG file's profile grows by doubling while it is inflated, before its size is known.
@@ -237,6 +243,13 @@ fn decode_as(format: ImageFormat, bytes: &[u8], limits: Limits) -> Result<Parts,
     let is_stored_as_read = color == ColorType::Rgba8;
     let read_bytes = if is_stored_as_read { 0 } else { channels.count() * sample_bytes };
     let (own_bytes, own_copy) = decoders_own(format, &jpeg, bytes.len());
+    let mut notes = Vec::new();
+    if decoder.orientation().is_ok_and(|orientation| orientation != Orientation::NoTransforms) {
+        notes.push(NOT_TURNED.to_owned());
+    }
+    if is_animated(format, bytes) {
+        notes.push("it is an animation, of which one picture is read".to_owned());
+    }
     let icc = decoder.icc_profile().ok().flatten();
     // The decoder keeps the profile, too.
     let profiles = icc.as_ref().map_or(0, |icc| 2 * icc.len());
@@ -282,24 +295,43 @@ fn decode_as(format: ImageFormat, bytes: &[u8], limits: Limits) -> Result<Parts,
             Texels::U16(spread(&values, channels, 65_535, |v| v))
         }
     };
-    let notes = jpeg_notes(flaw)?;
+    notes.extend(jpeg_note(flaw)?);
     Ok(Parts { width, height, channels, texels, profile, notes })
 }
 
 /// A flaw of a JPEG file as an error, or as a note where all of the image is there.
-fn jpeg_notes(flaw: Option<jpeg::Flaw>) -> Result<Vec<String>, DecodeError> {
+fn jpeg_note(flaw: Option<jpeg::Flaw>) -> Result<Option<String>, DecodeError> {
     let reason = match flaw {
-        None => return Ok(Vec::new()),
+        None => return Ok(None),
         Some(jpeg::Flaw::Coarse) => {
-            return Ok(vec![
-                "the last scans of the progressive JPEG are not there: it is coarser than it was".to_owned(),
-            ]);
+            let note = "the last scans of the progressive JPEG are not there: it is coarser than it was";
+            return Ok(Some(note.to_owned()));
         }
         Some(jpeg::Flaw::Short) => "a scan ends before all of the image is in it",
         Some(jpeg::Flaw::NoCode) => "a scan holds bits that mean nothing",
         Some(jpeg::Flaw::Missing) => "one of its colour components is not there",
     };
     Err(DecodeError::Damaged { format: "JPEG", reason: reason.to_owned() })
+}
+
+/// Said of a file whose rows and columns are not what its owner sees.
+const NOT_TURNED: &str = "its orientation is not applied, as texture coordinates mean the rows and columns of the file";
+
+/// Whether a WebP file has fewer bytes than it says (all but the last, which may be padding): its decoder takes zeros for
+/// the last few of a lossy one. RFC 9649 (2024), 2.4.
+fn webp_is_cut(bytes: &[u8]) -> bool {
+    let stated = bytes.get(4..).and_then(|rest| rest.first_chunk::<4>()).map(|&size| u32::from_le_bytes(size));
+    stated.is_some_and(|size| bytes.len() + 1 < 8 + size as usize)
+}
+
+/// Whether a PNG or WebP file holds several pictures: acTL before the image data (W3C 2025, "Portable Network Graphics (PNG)
+/// Specification (Third Edition)", 11.3.6.1), or the second bit of the extended header (RFC 9649, 2.7).
+fn is_animated(format: ImageFormat, bytes: &[u8]) -> bool {
+    match format {
+        ImageFormat::Png => stated::png_is_animated(bytes),
+        ImageFormat::WebP => bytes.get(12..16) == Some(b"VP8X") && bytes.get(20).is_some_and(|flags| flags & 2 != 0),
+        _ => false,
+    }
 }
 
 /// What a decoder allocates beside what it is given, at most: bytes per texel, and bytes. JPEG keeps a copy of the file and,

@@ -84,6 +84,21 @@ pub(super) fn png(bytes: &[u8], icc: Option<&[u8]>, is_grey: bool) -> Option<Pro
     Some(Profile::from_gamma(name, gamma, primaries.filter(|_| !is_grey)))
 }
 
+/// Whether an acTL chunk stands before the image data.
+pub(super) fn png_is_animated(bytes: &[u8]) -> bool {
+    let mut rest = bytes.get(8..).unwrap_or_default();
+    while let Some((&[a, b, c, d, kind @ ..], after)) = rest.split_first_chunk::<8>() {
+        match &kind {
+            b"acTL" => return true,
+            b"IDAT" => return false,
+            _ => {}
+        }
+        let length = u32::from_be_bytes([a, b, c, d]) as usize;
+        rest = after.get(length.saturating_add(4)..).unwrap_or_default();
+    }
+    false
+}
+
 /// The check sum of a chunk's kind and data (ISO/IEC 15948, annex D).
 fn crc32(bytes: &[u8]) -> u32 {
     const TABLE: [u32; 256] = {

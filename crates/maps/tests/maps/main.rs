@@ -18,6 +18,7 @@ mod tangents;
 mod texel;
 mod tga_files;
 mod tiff_files;
+mod webp_files;
 
 use halfvector_maps::Real;
 

@@ -15,6 +15,8 @@ fn raw_tiff(big_endian: bool, strip: &[u8], fields: &[(u16, u16, &[u32])]) -> Ve
     let short = |x: u32| if big_endian { (x as u16).to_be_bytes() } else { (x as u16).to_le_bytes() };
     let long = |x: u32| if big_endian { x.to_be_bytes() } else { x.to_le_bytes() };
     let strip_fields: [(u16, u16, &[u32]); 2] = [(273, 4, &[8]), (279, 4, &[strip.len() as u32])];
+    let is_tiled = fields.iter().any(|field| field.0 == 324);
+    let strip_fields = strip_fields.into_iter().filter(|_| !is_tiled);
     let mut fields: Vec<_> = fields.iter().copied().chain(strip_fields).collect();
     fields.sort_by_key(|field| field.0);
     let directory = 8 + strip.len() + strip.len() % 2;
@@ -170,4 +172,107 @@ fn profiles_are_heard() {
 
     let file = with(&|tags| tags.write_tag(Tag::Unknown(301), &[0_u16; 768][..]).unwrap());
     assert!(decoded(&file).into_color().unwrap_err().to_string().contains("TransferFunction"));
+}
+
+/// TIFF 6.0 (1992), section 13, as its pseudocode has it.
+fn lzw(bytes: &[u8]) -> Vec<u8> {
+    let (mut packed, mut word, mut bits) = (Vec::new(), 0_u32, 0);
+    let mut write = |code: usize, width: u32| {
+        (word, bits) = (word << width | code as u32, bits + width);
+        while bits >= 8 {
+            bits -= 8;
+            packed.push((word >> bits) as u8);
+        }
+    };
+    let mut strings: Vec<Vec<u8>> = Vec::new();
+    let width = |strings: &[Vec<u8>]| (strings.len() as u32 + 258).ilog2() + 1;
+    let code = |strings: &[Vec<u8>], string: &[u8]| match string {
+        [byte] => Some(usize::from(*byte)),
+        _ => strings.iter().position(|s| s == string).map(|at| at + 258),
+    };
+    write(256, 9);
+    let mut string = Vec::new();
+    for &byte in bytes {
+        let longer = [&string[..], &[byte]].concat();
+        if code(&strings, &longer).is_some() {
+            string = longer;
+            continue;
+        }
+        write(code(&strings, &string).unwrap(), width(&strings));
+        strings.push(longer);
+        if strings.len() + 258 == 4094 {
+            write(256, 12);
+            strings.clear();
+        }
+        string = vec![byte];
+    }
+    write(code(&strings, &string).unwrap(), width(&strings));
+    strings.push(Vec::new());
+    write(257, width(&strings));
+    write(0, 7);
+    packed
+}
+
+/// Tiles of flat areas and of grain packed by LZW, whose codes may end just where a row does: the decoder at hand takes such
+/// for damage.
+#[test]
+fn tiles_packed_by_lzw_are_read() {
+    const SIZE: [usize; 2] = [100, 70];
+    let values = [
+        |_: usize, _: usize| 128_u8,
+        |x: usize, y: usize| if x < 40 && y < 30 { (x * 73 + y * 151) as u8 ^ (x * y) as u8 } else { 128 },
+        |x: usize, y: usize| (x + y) as u8,
+    ];
+    for (value, side) in values.into_iter().flat_map(|value| [16, 32, 64].map(|side| (value, side))) {
+        let [columns, rows] = SIZE.map(|n| n.div_ceil(side));
+        let tile = |i: usize| -> Vec<u8> {
+            let [x, y] = [i % columns * side, i / columns * side];
+            (0..side * side).map(|k| value(x + k % side, y + k / side)).collect()
+        };
+        let tiles: Vec<_> = (0..columns * rows).map(|i| lzw(&tile(i))).collect();
+        let places: Vec<_> = tiles.iter().scan(8, |at, t| Some(std::mem::replace(at, *at + t.len()) as u32)).collect();
+        let lengths: Vec<_> = tiles.iter().map(|tile| tile.len() as u32).collect();
+        for big_endian in [false, true] {
+            let mut file = raw_tiff(
+                big_endian,
+                &tiles.concat(),
+                &[
+                    (256, 3, &[SIZE[0] as u32]),
+                    (257, 3, &[SIZE[1] as u32]),
+                    (258, 3, &[8]),
+                    (259, 3, &[5]),
+                    (262, 3, &[1]),
+                    (277, 3, &[1]),
+                    (322, 3, &[side as u32]),
+                    (323, 3, &[side as u32]),
+                    (324, 4, &places),
+                    (325, 3, &lengths),
+                ],
+            );
+            let want: Vec<_> =
+                (0..SIZE[0] * SIZE[1]).map(|k| value(k % SIZE[0], k / SIZE[0])).map(|c| [c, c, c, 255]).collect();
+            assert_eq!(decoded(&file).into_data().image.texels(), &Texels::U8(want), "tiles of {side}");
+            // Codes that are not there.
+            let last = *places.last().unwrap() as usize;
+            file[last + 1..last + lengths[lengths.len() - 1] as usize].fill(0xff);
+            assert!(decode(&file, Limits::default()).is_err(), "tiles of {side}");
+        }
+    }
+}
+
+/// A turned image, and one of two, are read as they stand, and said.
+#[test]
+fn what_is_passed_over_is_said() {
+    let fields: [(u16, u16, &[u32]); 6] =
+        [(256, 3, &[1]), (257, 3, &[1]), (258, 3, &[8]), (259, 3, &[1]), (262, 3, &[1]), (277, 3, &[1])];
+    let notes = |bytes: &[u8]| decoded(bytes).into_data().notes.join("; ");
+    let plain = raw_tiff(false, &[7], &fields);
+    assert_eq!(notes(&plain), "");
+    assert!(notes(&raw_tiff(false, &[7], &[&fields[..], &[(274, 3, &[6])]].concat())).contains("orientation"));
+    // The place of the next directory is the last number of a file whose fields are all short: the same once more.
+    let mut two = plain.clone();
+    let at = two.len() - 4;
+    two[at..].copy_from_slice(&(plain.len() as u32).to_le_bytes());
+    two.extend_from_slice(&plain[10..]);
+    assert!(notes(&two).contains("several images"), "{}", notes(&two));
 }
