@@ -27,6 +27,9 @@ const ERROR_NOISE: f64 = 0.05;
 const ERROR_FLOOR: f64 = 1e-9;
 /// A time may differ by this part and by the spreads of both runs.
 const TIME_NOISE: f64 = 0.15;
+/// A row whose yardstick took longer than the run's fastest by more than this part was measured in a slow moment, which meets one
+/// method more than another: so much more noise is allowed, twice what is beyond.
+const CALM: f64 = 0.08;
 /// A time differs by more than this [ns], or not at all: what a batch of a quarter of a nanosecond an element takes depends on
 /// where the compiler's loop happens to lie, too.
 const TIME_FLOOR: f64 = 0.05;
@@ -121,9 +124,16 @@ fn ratio(timed: &Timed, old: &Row, new: &Row) -> Option<f64> {
     Some((timed.cost)(new)? / (timed.cost)(old)? / pace).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
 }
 
+/// How much longer a row's yardstick took than the fastest of its run, beyond what is usual.
+fn strain(row: &Row, fastest: f64) -> f64 {
+    row.yardstick_ns.map_or(0.0, |yardstick| (yardstick / fastest - 1.0 - CALM).max(0.0))
+}
+
 fn slower(pairs: &[(&Row, &Row)]) -> Vec<Change> {
     let all = pairs.iter().flat_map(|&(old, new)| TIMED.iter().filter_map(move |timed| ratio(timed, old, new)));
     let machine = median(all.collect());
+    let fastest = [pairs.iter().map(|pair| pair.0).collect::<Vec<_>>(), pairs.iter().map(|pair| pair.1).collect()]
+        .map(|rows| rows.iter().filter_map(|row| row.yardstick_ns).fold(f64::INFINITY, f64::min));
     let mut changes = Vec::new();
     // The same time stands in the rows of all domains of a method.
     let mut told = HashSet::new();
@@ -133,7 +143,8 @@ fn slower(pairs: &[(&Row, &Row)]) -> Vec<Change> {
             let Some(ratio) = ratio(timed, old, new).map(|ratio| ratio / machine) else { continue };
             // A time of too few runs does not know its noise: it proves nothing.
             let (Some(first), Some(second)) = ((timed.spread)(old), (timed.spread)(new)) else { continue };
-            let allowed = 1.0 + TIME_NOISE + first + second;
+            let strain = strain(old, fastest[0]) + strain(new, fastest[1]);
+            let allowed = 1.0 + TIME_NOISE + first + second + 2.0 * strain;
             let seen = ratio > allowed && (ratio - 1.0) * before > TIME_FLOOR;
             if seen && told.insert((&old.term, &old.method, before.to_bits())) {
                 let figures = format!(
@@ -233,6 +244,10 @@ mod tests {
         new.rows.iter_mut().for_each(|row| row.yardstick_ns = Some(4.0));
         assert_eq!(changes(&old, &new).len(), 1);
         new.rows[2].yardstick_ns = Some(8.0);
+        assert_eq!(changes(&old, &new), []);
+        // It slows one method more than the yardstick.
+        (new.rows[2].cost_ns, new.rows[2].yardstick_ns) = (Some(1.6 * 4.0), Some(1.3 * 4.0));
+        new.rows[2].cost_spread = Some(0.0);
         assert_eq!(changes(&old, &new), []);
     }
 

@@ -35,7 +35,7 @@ pub(crate) struct ReportArgs {
 }
 
 /// How often what seems to be slower is measured again before it is told.
-const CONFIRMATIONS: usize = 3;
+const CONFIRMATIONS: usize = 5;
 
 /// Before it is measured again.
 const CALM: Duration = Duration::from_secs(2);

@@ -150,10 +150,14 @@ fn finding(rows: &[&Row]) -> Option<String> {
         });
     }
     let methods = distinct(rows.iter().map(|row| row.method.as_str()));
+    // Of pictures it is said how different they look.
+    let looks = rows.iter().all(|row| row.flip.is_some());
+    let figure = |row: &Row| if looks { row.flip } else { row.error_rms };
     let of = |method: &str| -> Vec<f64> {
-        rows.iter().filter(|row| row.method == method).filter_map(|row| row.error_rms).collect()
+        rows.iter().filter(|row| row.method == method).filter_map(|row| figure(row)).collect()
     };
-    let unit = Unit::of(&rows[0].domain);
+    let unit = if looks { Unit::Plain } else { Unit::of(&rows[0].domain) };
+    let errs = if looks { "differs by a FLIP of" } else { "errs" };
     if rows.iter().all(|row| row.error_rms.is_none()) {
         let count = |row: &&&Row| row.instructions;
         let (least, most) = (rows.iter().min_by_key(count)?, rows.iter().max_by_key(count)?);
@@ -167,9 +171,9 @@ fn finding(rows: &[&Row]) -> Option<String> {
         let (least, most) = errors.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &x| (a.min(x), b.max(x)));
         match errors.len() {
             0 => None,
-            1 => Some(format!("`{method}` errs {}", words::error(most, unit))),
+            1 => Some(format!("`{method}` {errs} {}", words::error(most, unit))),
             n => Some(format!(
-                "`{method}` errs {} (median of {n} cases, {} to {})",
+                "`{method}` {errs} {} (median of {n} cases, {} to {})",
                 words::error(median(errors), unit),
                 words::error(least, unit),
                 words::error(most, unit)
