@@ -83,3 +83,35 @@ pub(crate) fn failed(material: &str, shader: Option<&Shader>, error: &RunError) 
     let place = place.map(|place| place.to_string()).unwrap_or_default();
     RasterError::Run { material: material.to_owned(), why: format!("{place}{error}") }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use halfvector_codegen::Fold;
+    use halfvector_graph::document::{Document, Link, Node, SocketRef};
+    use halfvector_graph::library::Library;
+    use halfvector_graph::needs::ShaderOutput;
+    use halfvector_interp::Place;
+    use halfvector_scene::{BuiltinMesh, MeshSource, Scene, needs};
+
+    use super::*;
+
+    /// A loop that takes too long is told by the file of its node.
+    #[test]
+    fn a_run_that_does_not_end_names_the_file_of_its_node() {
+        let mut document = Document::with_surface("slow");
+        document.graph.nodes.insert("noise".into(), Node::new("procedural/fbm_3d"));
+        document.graph.links.push(Link::new(SocketRef::new("noise", "out"), SocketRef::new("surface", "metallic")));
+        let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
+        let scene = Scene::from_material(document.clone(), Path::new(""), &sphere).expect("a scene");
+        let needs = needs(&scene, ShaderOutput::Radiance);
+        let shader = halfvector_codegen::shader(&document, Library::standard(), &needs, Fold::Export)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let start = shader.wgsl.find("fn node_procedural_fbm_3d").expect("the node's function");
+        // The name of the function would be told anyway.
+        let place = Place { function: "f".to_owned(), span: Some(start..start + 2) };
+        let told = failed("slow", Some(&shader), &RunError::Steps { limit: 1, place }).to_string();
+        assert!(told.contains("`slow`") && told.contains("procedural/fbm.wgsl"), "{told}");
+    }
+}
