@@ -1,7 +1,7 @@
 //! The few lowest coefficients of a map, from every texel of it.
 //!
-//! What is sharp in a map does not show in them, but where a lamp stands does: averaging a map down moves each lamp by up to
-//! half of a texel of the smaller one, and a coefficient by a thousandth.
+//! What is sharp in a map does not show in them, but where a lamp stands does: averaging a map down moves each lamp by
+//! up to half of a texel of the smaller one, and a coefficient by a thousandth.
 
 use super::gauss_legendre;
 use super::legendre::{LANES, Lanes, Order};
@@ -13,8 +13,8 @@ use std::f64::consts::{PI, TAU};
 /// The highest degree.
 const DEGREE: usize = 3;
 
-/// For m = 0 ..= 3 the coefficients of degree m, m + 1, ... 3, as [`Spectrum`](super::Spectrum) has them, of a map taken as
-/// constant within each texel, exact but for rounding.
+/// For m = 0 ..= 3 the coefficients of degree m, m + 1, ... 3, as [`Spectrum`](super::Spectrum) has them, of a map
+/// taken as constant within each texel, exact but for rounding.
 pub(super) fn low_orders(map: &Equirect) -> [Vec<Channels>; DEGREE + 1] {
     let tall = PI / map.height as f64;
     let wide = TAU / map.width as f64;

@@ -1,9 +1,9 @@
-//! OpenEXR: half, float or integer channels in any order, scan lines or tiles, every compression that the `exr` crate knows
-//! (DWAB too), the first suitable part of several.
+//! OpenEXR: half, float or integer channels in any order, scan lines or tiles, every compression that the `exr` crate
+//! knows (DWAB too), the first suitable part of several.
 //!
-//! Suitable is a flat part with R, G and B, or with Y alone as grey; a layer or view may stand before the name ("left.R").
-//! Other channels, parts and resolution levels are not kept in memory. Chromaticities are told, not applied. Strips of
-//! levels that `save::exr` wrote are read back as levels.
+//! Suitable is a flat part with R, G and B, or with Y alone as grey; a layer or view may stand before the name
+//! ("left.R"). Other channels, parts and resolution levels are not kept in memory. Chromaticities are told, not
+//! applied. Strips of levels that `save::exr` wrote are read back as levels.
 
 use super::layout::levels_in_strip;
 use super::{Content, Fault, Limits, Picture, StoredLevels, StoredLobe, checked_texels, field, roughness_list};
@@ -155,8 +155,8 @@ fn read_line(line: &LineRef<'_>, kind: SampleType, target: &mut [[f32; 3]], c: u
 
 /// Refuses windows that hold nothing or overflow, which the decoder takes as others: it exchanges their corners.
 ///
-/// The header's attributes follow one another: name and type, each with a NUL, a length of four bytes, the value. What is not so is
-/// the decoder's to name.
+/// The header's attributes follow one another: name and type, each with a NUL, a length of four bytes, the value. What
+/// is not so is the decoder's to name.
 fn check_windows(bytes: &[u8]) -> Result<(), Fault> {
     // Behind the magic number and the version.
     let mut rest = bytes.get(8..).unwrap_or_default();

@@ -1,13 +1,13 @@
 //! A cube of a map, each texel the mean over its solid angle.
 //!
-//! Solid angle is azimuth times cosine of the polar angle. So the sphere is cut into slices between meridians, in none of which
-//! an edge of a column of the map lies, nor a corner of the cube's texels. Along the middle of each slice runs a walk from texel
-//! to texel of the cube and from row to row of the map, and each step adds the radiance there times the slice's width and the
-//! step's cosines. On the four faces round the horizon meridians run along columns of the cube, on the faces about the poles they
-//! are rays across it.
+//! Solid angle is azimuth times cosine of the polar angle. So the sphere is cut into slices between meridians, in none
+//! of which an edge of a column of the map lies, nor a corner of the cube's texels. Along the middle of each slice runs
+//! a walk from texel to texel of the cube and from row to row of the map, and each step adds the radiance there times
+//! the slice's width and the step's cosines. On the four faces round the horizon meridians run along columns of the
+//! cube, on the faces about the poles they are rays across it.
 //!
-//! Where texels of the map are larger than the cube's, steps between them become ramps. A ramp gives as much to one side as it takes
-//! from the other, so that it moves light only where an edge of the cube's texels lies within it.
+//! Where texels of the map are larger than the cube's, steps between them become ramps. A ramp gives as much to one
+//! side as it takes from the other, so that it moves light only where an edge of the cube's texels lies within it.
 
 use crate::cube::Cube;
 use crate::equirect::Equirect;
@@ -39,8 +39,8 @@ struct Resampling<'a> {
     size: usize,
     /// Cosine of the polar angle at the upper edge of each row, and at the last one's lower edge.
     edges: Vec<f64>,
-    /// How many columns of the map the cube's texels span in each row: on the faces about the poles, and on those round the horizon in
-    /// the middle of the face.
+    /// How many columns of the map the cube's texels span in each row: on the faces about the poles, and on those round
+    /// the horizon in the middle of the face.
     across: [Vec<f64>; 2],
     /// Whether any texel of the cube is smaller than one of the map.
     ramps: bool,
@@ -132,8 +132,8 @@ impl Resampling<'_> {
         means.finished().into_iter().map(|[texels]| texels).collect()
     }
 
-    /// The texels of a row of texels along the rim of N quarters of the faces about the poles, or along a line within them; above, and
-    /// below.
+    /// The texels of a row of texels along the rim of N quarters of the faces about the poles, or along a line within
+    /// them; above, and below.
     fn pole_strips<const N: usize>(&self, first: usize, major: usize) -> Vec<[[[f32; 3]; N]; 2]> {
         let size = self.size;
         let place = |i: f64| 2.0 * i / size as f64 - 1.0;
@@ -181,8 +181,8 @@ impl Resampling<'_> {
         means.finished()
     }
 
-    /// Slices from cut to cut, given by the tangents of their angles from the middle of a quarter, in any order; also cut where
-    /// columns of the map meet, with ramps where they have their middles, too.
+    /// Slices from cut to cut, given by the tangents of their angles from the middle of a quarter, in any order; also
+    /// cut where columns of the map meet, with ramps where they have their middles, too.
     fn slices(&self, quarter: usize, cuts: Vec<f64>) -> Vec<Slice> {
         let width = self.map.width as f64;
         let middle = width * (0.5 + 0.25 * quarter as f64);
@@ -236,8 +236,8 @@ fn turned(quarter: usize, size: usize, major: usize, minor: usize) -> (usize, us
     }
 }
 
-/// The root of the solid angle of a texel of the cube in a unit direction, whose largest component counts: the area of the texel
-/// over the cube of its distance.
+/// The root of the solid angle of a texel of the cube in a unit direction, whose largest component counts: the area of
+/// the texel over the cube of its distance.
 fn texel_width(size: usize, largest_component: f64) -> f64 {
     2.0 / size as f64 * largest_component * largest_component.sqrt()
 }
@@ -340,9 +340,9 @@ impl<'a> Walk<'a> {
         0.5 * distance - distance * distance / (4.0 * ramp)
     }
 
-    /// Crosses from one texel into another: by how much of the map's next row the one has more, and the other less, than what
-    /// the middle of the slice says. The cosines are those at the slice's ends where the other texel is another walk's, in other
-    /// slices, and else the walk's own; the largest component is that of the unit direction.
+    /// Crosses from one texel into another: by how much of the map's next row the one has more, and the other less,
+    /// than what the middle of the slice says. The cosines are those at the slice's ends where the other texel is
+    /// another walk's, in other slices, and else the walk's own; the largest component is that of the unit direction.
     fn cross(&mut self, cosines: [f64; 2], largest_component: f64, from: Option<usize>, to: Option<usize>) {
         let Resampling { edges, map, size, ramps, .. } = self.resampling;
         if !ramps && cosines[0] == cosines[1] {
@@ -412,8 +412,8 @@ impl<const N: usize, const P: usize> Means<N, P> {
         }
     }
 
-    /// Adds the map's radiance along a walk, and along the same in the other quarters; `below` with the rows from the bottom.
-    /// `across` says how many columns of the map the cube's texels span in a row.
+    /// Adds the map's radiance along a walk, and along the same in the other quarters; `below` with the rows from the
+    /// bottom. `across` says how many columns of the map the cube's texels span in a row.
     fn add(
         &mut self,
         resampling: &Resampling<'_>,

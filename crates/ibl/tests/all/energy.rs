@@ -1,5 +1,6 @@
 //! What of a lamp of one texel arrives in the levels, wherever in the map it stands.
 
+use crate::full;
 use halfvector_ibl::{
     BakeOptions, Cube, Equirect, LevelMap, Quality, bake, cube_from_equirect, direction_from_equirect,
     direction_from_face, equirect_from_direction, equirect_texel_solid_angle, texel_solid_angle,
@@ -27,8 +28,8 @@ fn lamps(width: usize, height: usize, places: [(usize, usize); 3]) -> (Equirect,
     (map, places.map(|(row, _)| 65504.0 * equirect_texel_solid_angle(width, height, row)))
 }
 
-/// Rows at the poles, at the equator, where faces of the cube meet and between, with columns at the seam, along the edges and corners of
-/// faces and between.
+/// Rows at the poles, at the equator, where faces of the cube meet and between, with columns at the seam, along the
+/// edges and corners of faces and between.
 fn places(width: usize, height: usize) -> Vec<(usize, usize)> {
     let row = |share: usize| share * height / 512;
     let column = |share: usize| share * width / 1024;
@@ -51,10 +52,13 @@ fn places(width: usize, height: usize) -> Vec<(usize, usize)> {
 #[test]
 fn level_0_keeps_every_lamp() {
     for (width, height, size) in
-        [(1024, 512, 256), (1024, 512, 100), (1024, 512, 700), (2048, 1024, 64), (1022, 512, 256)]
+        [(1024, 512, 256), (1024, 512, 100), (1024, 512, 500), (2048, 1024, 64), (1022, 512, 256)]
     {
         let mut worst = (0.0f64, (0, 0));
-        for three in places(width, height).chunks_exact(3) {
+        // The size that bakes are measured at with every place, the others with some, or all with `HALFVECTOR_FULL=1`.
+        let usual = (width, size) == (1024, 256);
+        let step = if full() || usual { 1 } else { 4 };
+        for three in places(width, height).chunks_exact(3).step_by(step) {
             let (map, truth) = lamps(width, height, [three[0], three[1], three[2]]);
             let cube = cube_from_equirect(&map, size);
             let found = energy(&cube);
@@ -82,20 +86,21 @@ fn level_0_keeps_every_lamp() {
             "{width} x {height} to {size}: a lamp's energy in level 0 within {:.3} % (row {row}, column {column})",
             100.0 * error
         );
-        // Where columns of the map lie across the diagonals of the faces about the poles, those at the cube's corners are
-        // less exact.
-        assert!(error < if width % 4 == 0 { 1e-3 } else { 4e-3 }, "{error}");
+        // Least exact are places where an edge of a row and one of the cube's texels cross.
+        assert!(error < if usual { 1e-3 } else { 4e-3 }, "{error}");
     }
 }
 
-/// Levels 0 and 0.1 of a bake, at every quality, with faces of 256 and 128 texels.
+/// Levels 0 and 0.1 of a bake with faces of 256 and 128 texels, at preview and default quality, with `HALFVECTOR_FULL=1`
+/// at best, too.
 #[test]
 fn levels_keep_every_lamp() {
     for places in [[(0, 5), (1, 700), (3, 701)], [(60, 500), (180, 333), (255, 0)], [(256, 1023), (300, 640), (511, 9)]]
     {
         let (map, truth) = lamps(1024, 512, places);
         let environment = map.into();
-        for quality in [Quality::Preview, Quality::Default, Quality::Best] {
+        let qualities = [Quality::Preview, Quality::Default, Quality::Best];
+        for quality in qualities.into_iter().take(if full() { 3 } else { 2 }) {
             let options = BakeOptions {
                 size: 256,
                 level_map: LevelMap::Listed(vec![0.0, 0.1]),

@@ -381,8 +381,8 @@ fn foreign_ktx2(vk_format: u32, channels: usize, bits: u8, pair: &[u8], texels: 
     file
 }
 
-/// Three channels, whose texels are no multiple of four bytes: levels stand at multiples of both. And colours that are stored in
-/// another order are put in theirs, or refused by the key's name.
+/// Three channels, whose texels are no multiple of four bytes: levels stand at multiples of both. And colours that are
+/// stored in another order are put in theirs, or refused by the key's name.
 #[test]
 fn ktx2_channels_of_others() {
     let bytes: Vec<u8> = [51u8, 102, 255].repeat(24);
