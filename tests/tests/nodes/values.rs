@@ -73,6 +73,38 @@ const CASES: &[Case] = &[
     ("color/rec709_from_rec2020", &[("color", &[0.0, 1.0, 0.0])], &[-0.587_641, 1.132_9, -0.100_579]),
     ("color/rec709_from_acescg", &[("color", &[1.0, 1.0, 1.0])], &[1.0, 1.0, 1.0]),
     ("color/over", &[("top_alpha", &[0.5]), ("base_alpha", &[0.0])], &[1.0, 1.0, 1.0, 0.5]),
+    // A half on a half: a quarter of the pixel has both, and where only one may be seen the other one's is black.
+    ("color/in", &[("base_alpha", &[0.5]), ("top", &[0.2, 0.4, 0.6]), ("top_alpha", &[0.5])], &[0.2, 0.4, 0.6, 0.25]),
+    ("color/in", &[("base_alpha", &[0.0])], &[0.0, 0.0, 0.0, 0.0]),
+    ("color/out", &[("base_alpha", &[0.25]), ("top", &[0.2, 0.4, 0.6])], &[0.2, 0.4, 0.6, 0.75]),
+    (
+        "color/atop",
+        &[("base", &[0.0, 0.5, 1.0]), ("base_alpha", &[0.5]), ("top", &[1.0, 0.5, 0.0]), ("top_alpha", &[0.25])],
+        &[0.25, 0.5, 0.75, 0.5],
+    ),
+    (
+        "color/xor",
+        &[("base", &[0.0, 0.5, 1.0]), ("base_alpha", &[0.5]), ("top", &[1.0, 0.5, 0.0]), ("top_alpha", &[0.5])],
+        &[0.5, 0.5, 0.5, 0.5],
+    ),
+    ("color/xor", &[("top_alpha", &[1.0])], &[0.0, 0.0, 0.0, 0.0]),
+    // Room for both: nothing of either is hidden. Without room the lower one has what is left.
+    (
+        "color/disjoint_over",
+        &[("base", &[0.0, 0.5, 1.0]), ("base_alpha", &[0.25]), ("top", &[1.0, 0.5, 0.0]), ("top_alpha", &[0.25])],
+        &[0.5, 0.5, 0.5, 0.5],
+    ),
+    (
+        "color/disjoint_over",
+        &[("base", &[0.0, 0.5, 1.0]), ("base_alpha", &[1.0]), ("top", &[1.0, 0.5, 0.0]), ("top_alpha", &[0.75])],
+        &[0.75, 0.5, 0.25, 1.0],
+    ),
+    ("color/premultiply", &[("color", &[0.2, 0.4, 0.6]), ("alpha", &[0.5])], &[0.1, 0.2, 0.3]),
+    ("color/unpremultiply", &[("color", &[0.1, 0.2, 0.3]), ("alpha", &[0.5])], &[0.2, 0.4, 0.6]),
+    ("color/unpremultiply", &[("color", &[0.1, 0.2, 0.3]), ("alpha", &[0.0])], &[0.0, 0.0, 0.0]),
+    ("color/four_corners", &[("uv", &[0.25, 2.0])], &[0.25, 1.0, 0.0]),
+    ("color/split", &[("uv", &[0.2, 0.8])], &[0.0, 0.0, 0.0]),
+    ("color/split", &[("uv", &[0.2, 0.8]), ("rotation", &[90.0])], &[1.0, 1.0, 1.0]),
     ("color/levels", &[("color", &[0.5, 0.25, 0.9]), ("in_low", &[0.25]), ("in_high", &[0.75])], &[0.5, 0.0, 1.0]),
     ("color/key", &[("color", &[1.0, 0.0, 0.0])], &[1.0]),
     ("color/ramp4", &[("t", &[0.25])], &[0.187_519, 0.187_519, 0.187_519]),

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use proptest::prelude::*;
 
 use super::{any_document, document, link, small, socket};
-use crate::check::{MAX_LIVE_NODES, Severity, check};
+use crate::check::{MAX_GROUPS, MAX_LIVE_NODES, Severity, check};
 use crate::document::{Document, Group, GroupInput, GroupOutput, Node};
 use crate::flatten::{FlattenError, find, flatten};
 use crate::group::MAX_GROUP_DEPTH;
@@ -196,12 +196,14 @@ fn bombs_of_groups_are_refused_at_once() {
     told(&doubling(20), Severity::Error, &format!("no driver takes a shader of more than {MAX_LIVE_NODES}"));
     assert!(matches!(flatten(&doubling(20), small()), Err(FlattenError::TooMany(n)) if n > MAX_LIVE_NODES));
     told(&doubling(60), Severity::Error, &format!("groups lie more than {MAX_GROUP_DEPTH} deep"));
-    told(&doubling(2000), Severity::Error, "deep in each other");
+    told(&doubling(MAX_GROUPS), Severity::Error, "deep in each other");
     assert_eq!(flatten(&doubling(2000), small()).err(), Some(FlattenError::TooDeep));
     assert_eq!(check(&doubling(8), small()), []);
-    // Ten thousand groups that all hold the next one.
-    let mut wide = doubling(10_000);
-    wide.groups.get_mut("g0").expect("g0").graph.nodes.insert("r".into(), Node::new("group/g9999"));
+    told(&doubling(10_000), Severity::Error, "the document has 10000 groups");
+    // As many groups as are read, which all hold the next one.
+    let mut wide = doubling(MAX_GROUPS);
+    let last = format!("group/g{}", MAX_GROUPS - 1);
+    wide.groups.get_mut("g0").expect("g0").graph.nodes.insert("r".into(), Node::new(&last));
     wide.groups.get_mut("g0").expect("g0").graph.links.push(link("r.out", "m.a"));
     told(&wide, Severity::Error, "the groups hold each other in a ring");
     // Well below a second on a quiet machine.
