@@ -224,7 +224,7 @@ fn device_times(renderer: &Renderer, cache: &mut Cache, scenes: &[Scene], effort
     let lights: Vec<Arc<BakedEnvironment>> = scenes.iter().map(&mut light).collect();
     let options = RenderOptions { width: SIDE, height: SIDE, samples_per_side: 1, ..RenderOptions::default() };
     let mut shortest: Vec<Option<f64>> = vec![None; scenes.len()];
-    for round in 0..=effort.pick(7, 31) {
+    for round in 0..=effort.pick(5, 31) {
         for ((scene, light), shortest) in scenes.iter().zip(&lights).zip(&mut shortest) {
             let drawn = renderer.render_timed(cache, scene, Some(light), &options);
             if let Ok((_, Some(time))) = drawn
