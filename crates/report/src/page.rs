@@ -86,8 +86,8 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
     let _ = write!(
         page,
         "<h2 id=\"choose\">What to choose</h2>\n<p>Made from the figures below by one rule. <b>Mobile</b> takes the cheapest \
-         method whose rms error is at most {}, <b>desktop</b> the cheapest within {}, <b>film</b> the most accurate, and of \
-         those that are as accurate the cheapest. Where no method keeps a limit, the one for film stands in brackets.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
+         method whose rms error is at most {}, <b>desktop</b> the cheapest within {}, <b>film</b> the cheapest of \
+         those within 5 % of the least error. Where no method keeps a limit, the one for film stands in brackets.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
          <th>mobile</th><th>desktop</th><th>film</th></tr></thead><tbody>\n",
         limit(Budget::Mobile),
         limit(Budget::Desktop)

@@ -68,7 +68,7 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
          out/report/report.json docs/accuracy.json\nHALFVECTOR_BLESS=1 cargo test --workspace --test all -- accuracy\n```\n\n\
          `out/report/index.html` is the same with plots, inputs and where each error is largest.\n\n## What to choose\n\nThe \
          cheapest method whose rms error is within {} % ({}° for angles) for **mobile** and within {} % ({}°) for **desktop**; the \
-         most accurate for **film**. In brackets: no method keeps the limit, this is the one for film.\n\n\
+         cheapest of those within 5 % of the least error for **film**. In brackets: no method keeps the limit, this is the one for film.\n\n\
          | term | inputs | mobile | desktop | film |\n|---|---|---|---|---|\n",
         report.machine,
         report.date,

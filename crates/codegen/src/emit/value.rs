@@ -20,8 +20,9 @@ pub(crate) fn literal(literal: &Literal) -> String {
 
 /// A finite f32 as a WGSL literal: `1.0`, `0.1`, `1e-7`.
 pub(crate) fn number(x: f32) -> String {
-    // Rust's `{:?}` is the shortest that reads back, with a point or an exponent, as WGSL wants it.
-    format!("{x:?}")
+    // Rust's `{:?}` is the shortest that reads back, with a point or an exponent, as WGSL wants it. Of the largest number it is
+    // above that number, and Tint refuses it; this one reads back, too.
+    if x.abs() == f32::MAX { format!("{}3.4028234e38", if x < 0.0 { "-" } else { "" }) } else { format!("{x:?}") }
 }
 
 #[cfg(test)]
@@ -39,6 +40,10 @@ mod tests {
             if x.is_finite() {
                 assert_eq!(number(x).parse::<f32>().unwrap().to_bits(), bits);
             }
+        }
+        for x in [f32::MAX, -f32::MAX] {
+            assert_eq!(number(x).parse::<f32>(), Ok(x));
+            assert!(number(x).parse::<f64>().unwrap().abs() <= f64::from(f32::MAX));
         }
         assert_eq!(literal(&Literal::new(Type::Vec3, &[0.5])), "vec3f(0.5)");
         assert_eq!(literal(&Literal::new(Type::Vec2, &[0.5, -1.0])), "vec2f(0.5, -1.0)");

@@ -1,5 +1,5 @@
 //! TIFF files: grey, palette, RGB, with alpha or without; 1 to 16 bits, and 16- to 64-bit floats.
-//! Does not read separate planes, CMYK, YCbCr or Lab.
+//! Does not read separate planes, bytes of reversed bits, CMYK, YCbCr or Lab.
 
 use std::io::Cursor;
 
@@ -59,6 +59,9 @@ pub(super) fn decode(bytes: &[u8], limits: Limits) -> Result<Parts, DecodeError>
     };
     if decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(explained)?.is_some_and(|plan| plan != 1) {
         return Err(unsupported("separate planes (PlanarConfiguration 2)"));
+    }
+    if decoder.find_tag_unsigned::<u16>(Tag::FillOrder).map_err(explained)?.is_some_and(|order| order != 1) {
+        return Err(unsupported("bytes whose bits stand in reverse (FillOrder 2)"));
     }
     if patched.is_some() && channels != Channels::Grey {
         return Err(unsupported("a palette with more than one channel"));

@@ -143,6 +143,12 @@ fn other_types_are_refused() {
     TiffEncoder::new(&mut bytes).unwrap().write_image::<colortype::CMYK8>(1, 1, &[1, 2, 3, 4]).unwrap();
     let error = decode(&bytes.into_inner(), Limits::default()).unwrap_err().to_string();
     assert!(error.contains("TIFF image: the colour type CMYK"), "{error}");
+    let fields: [(u16, u16, &[u32]); 6] =
+        [(256, 3, &[1]), (257, 3, &[1]), (258, 3, &[8]), (259, 3, &[1]), (262, 3, &[1]), (277, 3, &[1])];
+    let file = |order: u32| raw_tiff(false, &[7], &[&fields[..], &[(266, 3, &[order])]].concat());
+    assert_eq!(decoded(&file(1)).into_data().image.texels(), &Texels::U8(vec![[7, 7, 7, 255]]));
+    let error = decode(&file(2), Limits::default()).unwrap_err().to_string();
+    assert!(error.contains("FillOrder 2"), "{error}");
 }
 
 /// Where the fields of a file are written.

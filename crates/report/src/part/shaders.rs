@@ -107,6 +107,10 @@ fn document(term: &Term) -> (Document, &'static str) {
             set("occlusion", Value::Number(0.7));
             (document, ", with an occlusion")
         }
+        "sheen" => {
+            set("sheen_color", Value::Vec3([0.6, 0.5, 0.4]));
+            (document, ", with a sheen")
+        }
         "anisotropy" => {
             set("anisotropy", Value::Number(0.6));
             (document, ", brushed")
@@ -272,5 +276,20 @@ mod tests {
         assert!(of("fresnel", "exact") > of("fresnel", "schlick"));
         assert!(of("compensation", "none") < of("compensation", "turquin"));
         assert!(of("diffuse", "lambert") < of("diffuse", "eon"));
+    }
+
+    /// What is measured has the lobe that the term is about: no two methods make the same shader.
+    #[test]
+    fn methods_of_lobes_show_in_their_shaders() {
+        for name in ["sheen", "anisotropy", "specular_occlusion", "horizon"] {
+            let term = halfvector_graph::method::term(name).expect("a term");
+            let text = |method: &str| {
+                let mut scene = scene(document(term).0).expect("a scene");
+                scene.methods.set(term.name, method).expect("a method");
+                shader(&scene).expect("a shader").wgsl
+            };
+            let texts: std::collections::BTreeSet<String> = term.methods.iter().map(|m| text(m.name)).collect();
+            assert_eq!(texts.len(), term.methods.len(), "{name}");
+        }
     }
 }
