@@ -7,11 +7,11 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, LOG2_E, PI};
 
 /// 1.5 * 2^52: added to a number of less than 2^51 it rounds that to an integer, which stands in the low bits.
-const ROUND: f64 = 6_755_399_441_055_744.0;
+pub const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// The sum of `coefficients[i] * x^i`.
 #[inline(always)]
-fn polynomial<const N: usize>(x: f64, coefficients: [f64; N]) -> f64 {
+pub fn polynomial<const N: usize>(x: f64, coefficients: [f64; N]) -> f64 {
     let mut sum = coefficients[N - 1];
     let mut i = N - 1;
     while i > 0 {
@@ -21,8 +21,9 @@ fn polynomial<const N: usize>(x: f64, coefficients: [f64; N]) -> f64 {
     sum
 }
 
+/// One number or the other, without a branch where loops are widened.
 #[inline(always)]
-fn choose(condition: bool, accept: f64, reject: f64) -> f64 {
+pub fn choose(condition: bool, accept: f64, reject: f64) -> f64 {
     if condition { accept } else { reject }
 }
 

@@ -29,7 +29,7 @@
 
 mod allocate;
 mod code;
-mod elementary;
+pub mod elementary;
 mod emit;
 mod error;
 mod half;

@@ -3,25 +3,8 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
-/// 1.5 * 2^52: added to a number of less than 2^51 it rounds that to an integer, which stands in the low bits.
-const ROUND: f64 = 6_755_399_441_055_744.0;
-
-/// The sum of `coefficients[i] * x^i`.
-#[inline(always)]
-fn polynomial<const N: usize>(x: f64, coefficients: [f64; N]) -> f64 {
-    let mut sum = coefficients[N - 1];
-    let mut i = N - 1;
-    while i > 0 {
-        i -= 1;
-        sum = sum * x + coefficients[i];
-    }
-    sum
-}
-
-#[inline(always)]
-pub(crate) fn choose(condition: bool, accept: f64, reject: f64) -> f64 {
-    if condition { accept } else { reject }
-}
+pub(crate) use halfvector_interp::elementary::choose;
+use halfvector_interp::elementary::{ROUND, polynomial};
 
 /// A whole number of 0..2^32 as an integer, without the conversion's care for all others.
 #[inline(always)]
