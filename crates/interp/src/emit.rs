@@ -98,7 +98,7 @@ impl Emit<'_> {
         let class_of = |reg: Reg| self.ir.registers[reg as usize].class;
         let class = match inst.op {
             Op::Compare(_) | Op::Exponent => class_of(inst.a),
-            Op::Scatter(_) => class_of(inst.b),
+            Op::Scatter(_) | Op::Store(_) => class_of(inst.b),
             Op::Convert(_) if class_of(inst.dst) == Class::Bits => class_of(inst.a),
             Op::Texture(_) => Class::Float,
             _ => class_of(inst.dst),

@@ -64,6 +64,8 @@ pub(crate) enum Op {
     Scatter(u32),
     /// Reads a buffer at the byte offset `a` (or at a fixed one).
     Load(u32),
+    /// Writes `b` into a buffer at the byte offset `a` (or at a fixed one), in active lanes.
+    Store(u32),
     /// Elements of the runtime-sized array at the end of a buffer.
     Length(u32),
     /// Difference to the neighbour to the right (x) or below (y).
@@ -93,9 +95,9 @@ pub(crate) struct Table {
     pub(crate) len: u32,
 }
 
-/// A read of one scalar of a buffer.
+/// One scalar of a buffer that is read or written.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct BufferRead {
+pub(crate) struct BufferAccess {
     /// Index into [`Ir::buffers`].
     pub(crate) buffer: u32,
     /// Bytes that are added to the address.
@@ -226,7 +228,7 @@ pub(crate) struct Ir {
     pub(crate) nodes: Vec<Node>,
     pub(crate) pools: Vec<Vec<Reg>>,
     pub(crate) tables: Vec<Table>,
-    pub(crate) reads: Vec<BufferRead>,
+    pub(crate) accesses: Vec<BufferAccess>,
     pub(crate) texture_reads: Vec<TextureRead>,
     pub(crate) buffers: Vec<Resource>,
     pub(crate) textures: Vec<Resource>,

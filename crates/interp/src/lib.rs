@@ -23,7 +23,7 @@
 //! # }
 //! ```
 //!
-//! It does not do: atomics, barriers and workgroup memory, writes to buffers and textures, integer, depth, storage,
+//! It does not do: atomics, barriers and workgroup memory, writes to textures, integer, depth, storage,
 //! multisampled and external textures, the types f16, i64 and u64, ray queries, subgroup operations, override constants
 //! whose value is not set. Programs that use them are refused by name when they are compiled.
 

@@ -7,13 +7,13 @@ mod texture;
 use file::File;
 use naga::ScalarKind;
 
-use crate::code::{Code, SAME};
+use crate::code::{Code, SAME, Step};
 use crate::error::RunError;
-use crate::ir::{Class, NONE, Resource};
+use crate::ir::{Class, NONE, Op, Resource};
 use crate::kernel::{Block, LANES, Source};
 use crate::program::{Program, Slot};
 use crate::real::Float;
-use crate::resource::{Column, Derivatives, Limits, OutputColumn, Outputs, Resources};
+use crate::resource::{Column, Derivatives, Limits, Memory, OutputColumn, Outputs, Resources};
 use crate::shape;
 use crate::texture::{Sampler, Texture};
 
@@ -58,10 +58,18 @@ impl Mask {
 
 /// What a run reads, found in the order of the program's lists.
 struct Bound<'a> {
-    buffers: Vec<&'a [u8]>,
+    buffers: Vec<Memory<'a>>,
     textures: Vec<&'a Texture>,
     samplers: Vec<Sampler>,
     quads: bool,
+    writers: Writers,
+}
+
+/// Which lanes of a batch are invocations: others repeat the last one or help with derivatives, and write no buffers.
+#[derive(Clone, Copy, Debug)]
+struct Writers {
+    count: usize,
+    spread: usize,
 }
 
 fn missing(resource: &Resource, reason: &'static str) -> RunError {
@@ -117,7 +125,7 @@ impl<'p, F: Float> Machine<'p, F> {
             }
             Derivatives::Zero | Derivatives::Quads => None,
         };
-        let bound = self.bind(resources, !matches!(derivatives, Derivatives::Zero))?;
+        let mut bound = self.bind(resources, !matches!(derivatives, Derivatives::Zero))?;
         prepare(program.outputs(), outputs, lanes);
         let spread = if given.is_some() { 4 } else { 1 };
         let per_batch = LANES / spread;
@@ -130,8 +138,9 @@ impl<'p, F: Float> Machine<'p, F> {
                     self.shift(i, ddy[i], first, |lane| lane % 4 >= 2);
                 }
             }
-            self.batch(&bound)?;
             let count = per_batch.min(lanes - first);
+            bound.writers = Writers { count, spread };
+            self.batch(&bound)?;
             self.drain(outputs, count, spread);
             first += count;
         }
@@ -158,7 +167,16 @@ impl<'p, F: Float> Machine<'p, F> {
             textures: textures.collect::<Result<Vec<_>, _>>()?,
             samplers: samplers.collect::<Result<_, _>>()?,
             quads,
+            writers: Writers { count: 0, spread: 1 },
         };
+        for code in &program.code {
+            if let Code::Step(Step { op: Op::Store(access), .. }) = code {
+                let buffer = program.accesses[*access as usize].buffer as usize;
+                if let Memory::Bytes(_) = bound.buffers[buffer] {
+                    return Err(missing(&program.buffers[buffer], "is written: add it as storage, not as a buffer"));
+                }
+            }
+        }
         for read in &program.texture_reads {
             if !bound.textures[read.texture as usize].fits(read.dimension) {
                 let resource = &program.textures[read.texture as usize];

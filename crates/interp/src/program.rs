@@ -6,7 +6,7 @@ use naga::{Binding, Module, Scalar, ShaderStage, Type, TypeInner};
 use crate::allocate::{FileSize, allocate};
 use crate::code::Code;
 use crate::error::{Place, RunError, Unsupported};
-use crate::ir::{BufferRead, Ir, NONE, Op, Resource, TextureRead};
+use crate::ir::{BufferAccess, Ir, NONE, Op, Resource, TextureRead};
 use crate::lower::Lower;
 use crate::machine::Machine;
 use crate::real::Float;
@@ -43,7 +43,7 @@ pub struct Program {
     pub(crate) input_places: Vec<u32>,
     pub(crate) output_places: Vec<u32>,
     pub(crate) tables: Vec<Vec<u32>>,
-    pub(crate) reads: Vec<BufferRead>,
+    pub(crate) accesses: Vec<BufferAccess>,
     pub(crate) texture_reads: Vec<TextureRead>,
     pub(crate) buffers: Vec<Resource>,
     pub(crate) textures: Vec<Resource>,
@@ -107,7 +107,7 @@ impl Program {
         // A table stands in the program as its registers' places; one that nothing reads any more may hold none.
         let tables = (0..ir.tables.len() as u32).map(|t| ir.table(t).iter().map(|r| place(*r)).collect()).collect();
         let derives = flat.code.iter().any(|c| matches!(c, Code::Step(s) if matches!(s.op, Op::Derivative { .. })));
-        let Ir { reads, buffers, textures, samplers, sites, .. } = ir;
+        let Ir { accesses, buffers, textures, samplers, sites, .. } = ir;
         Ok(Program {
             inputs,
             outputs,
@@ -116,7 +116,7 @@ impl Program {
             code: flat.code,
             files: allocation.files,
             tables,
-            reads,
+            accesses,
             texture_reads,
             buffers,
             textures,

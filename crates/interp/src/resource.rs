@@ -1,5 +1,7 @@
 //! What a program is run with: columns of numbers, buffers, textures, limits.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use crate::real::Float;
 use crate::texture::{Sampler, Texture};
 
@@ -81,20 +83,62 @@ impl Default for Limits {
     }
 }
 
+/// A buffer's memory.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Memory<'a> {
+    Bytes(&'a [u8]),
+    Words(&'a [AtomicU32]),
+}
+
+impl Memory<'_> {
+    pub(crate) fn len(self) -> usize {
+        match self {
+            Memory::Bytes(bytes) => bytes.len(),
+            Memory::Words(words) => 4 * words.len(),
+        }
+    }
+
+    /// The word at a byte offset; 0 beyond the end, as devices with robust access return.
+    #[inline(always)]
+    pub(crate) fn word(self, at: usize) -> u32 {
+        match self {
+            Memory::Bytes(bytes) => bytes.get(at..at + 4).and_then(|b| b.try_into().ok()).map_or(0, u32::from_le_bytes),
+            Memory::Words(words) => words.get(at / 4).map_or(0, |word| word.load(Ordering::Relaxed)),
+        }
+    }
+
+    /// Writes the word at a byte offset; nothing beyond the end.
+    pub(crate) fn set_word(self, at: usize, word: u32) {
+        if let Memory::Words(words) = self
+            && let Some(place) = words.get(at / 4)
+        {
+            place.store(word, Ordering::Relaxed);
+        }
+    }
+}
+
 /// The buffers, textures and samplers of a module by `@group` and `@binding`. Those that the program does not read may be
 /// missing.
 #[derive(Clone, Debug, Default)]
 pub struct Resources<'a> {
-    buffers: Vec<((u32, u32), &'a [u8])>,
+    buffers: Vec<((u32, u32), Memory<'a>)>,
     textures: Vec<((u32, u32), &'a Texture)>,
     samplers: Vec<((u32, u32), Sampler)>,
 }
 
 impl<'a> Resources<'a> {
-    /// Adds a uniform or storage buffer: bytes in the layout of WGSL, little-endian.
+    /// Adds a uniform or storage buffer that is only read: bytes in the layout of WGSL, little-endian.
     #[must_use]
     pub fn buffer(mut self, group: u32, binding: u32, bytes: &'a [u8]) -> Self {
-        self.buffers.push(((group, binding), bytes));
+        self.buffers.push(((group, binding), Memory::Bytes(bytes)));
+        self
+    }
+
+    /// Adds a storage buffer that the program may write: words in the layout of WGSL, f32 as their bits. As on a device,
+    /// invocations that meet at one word in one dispatch find there what any of them has written: which one is not said.
+    #[must_use]
+    pub fn storage(mut self, group: u32, binding: u32, words: &'a [AtomicU32]) -> Self {
+        self.buffers.push(((group, binding), Memory::Words(words)));
         self
     }
 
@@ -112,8 +156,8 @@ impl<'a> Resources<'a> {
         self
     }
 
-    pub(crate) fn find_buffer(&self, at: (u32, u32)) -> Option<&'a [u8]> {
-        self.buffers.iter().find(|(place, _)| *place == at).map(|(_, bytes)| *bytes)
+    pub(crate) fn find_buffer(&self, at: (u32, u32)) -> Option<Memory<'a>> {
+        self.buffers.iter().find(|(place, _)| *place == at).map(|(_, memory)| *memory)
     }
 
     pub(crate) fn find_texture(&self, at: (u32, u32)) -> Option<&'a Texture> {

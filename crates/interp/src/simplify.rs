@@ -53,7 +53,8 @@ fn sweep(ir: &Ir, nodes: &mut Vec<Node>, needed: &mut [bool]) {
     for mut node in std::mem::take(nodes).into_iter().rev() {
         let keep = match &mut node {
             Node::Inst(inst) => {
-                let mut used = false;
+                // What is written into a buffer is for others.
+                let mut used = matches!(inst.op, Op::Store(_));
                 ir.destinations(inst, |reg| used |= needed[reg as usize]);
                 if used {
                     ir.sources(inst, |reg| needed[reg as usize] = true);

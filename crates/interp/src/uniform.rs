@@ -71,7 +71,7 @@ impl Walk<'_> {
         let mut written = Vec::new();
         match inst.op {
             // Most instructions: no list.
-            Op::Scatter(_) | Op::Texture(_) => self.ir.destinations(inst, |reg| written.push(reg)),
+            Op::Scatter(_) | Op::Texture(_) | Op::Store(_) => self.ir.destinations(inst, |reg| written.push(reg)),
             _ => written.push(inst.dst),
         }
         for reg in written {

@@ -1,6 +1,7 @@
 //! The interpreter on the library's own functions, against their Rust twins and against a GPU; and on programs that
 //! nobody wrote, against a GPU.
 
+mod bake;
 mod library;
 mod random;
 

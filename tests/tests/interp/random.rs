@@ -2,18 +2,19 @@
 //! generated is rounded correctly on both. A program is read off a tape of random bytes, so that a failing one shrinks to
 //! a short one.
 //!
-//! The tape makes expressions of all four scalars, variables, an array, if, switch, for with break and continue, early
+//! The tape makes expressions of all four scalars, variables, an array, words of a storage buffer, if, switch, for with break and continue, early
 //! returns, and calls with pointers. Numbers in the text stand beside a zero that only the run knows: naga refuses
 //! constants that overflow. Floats are kept between 2^-40 and 2^40 in size, or 0: devices may flush smaller ones.
 
 use std::fmt::Write;
+use std::sync::atomic::AtomicU32;
 
-use halfvector_interp::{Column, Derivatives, Limits, OutputColumn, Outputs, Resources};
+use halfvector_interp::{Column, Derivatives, Entry, Limits, Outputs, Program, Resources};
 use proptest::collection::vec;
 use proptest::prelude::any;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 
-use super::compile;
+use super::valid;
 use crate::twins::gpu::Gpu;
 
 /// Invocations of each program.
@@ -152,7 +153,7 @@ impl Writer<'_> {
     }
 
     fn statement(&mut self, depth: usize) {
-        let kind = if depth == 0 { self.pick(6) } else { self.pick(14) };
+        let kind = if depth == 0 { self.pick(7) } else { self.pick(15) };
         match kind {
             0 => {
                 let value = self.expression(Type::Float, 3);
@@ -179,21 +180,27 @@ impl Writer<'_> {
                 self.line(&format!("vi += helper({x}, {value}, &vf, &vu);"));
             }
             5 => self.line("vu += 1u;"),
-            6 | 7 => {
+            6 => {
+                let (index, value) = (self.expression(Type::Unsigned, 1), self.expression(Type::Signed, 1));
+                self.line(&format!(
+                    "results[row].kept[{index} % 3u] = u32({value}); vu ^= results[row].kept[vu % 3u];"
+                ));
+            }
+            7 | 8 => {
                 let condition = self.expression(Type::Bool, 2);
                 self.block(&format!("if {condition}"), depth - 1);
                 if self.pick(2) == 1 {
                     self.block("else", depth - 1);
                 }
             }
-            8 => {
+            9 => {
                 let condition = self.expression(Type::Bool, 1);
                 self.line(&format!(
                     "if {condition} {{ {} }}",
                     if self.calls { "return Result(vf, vi, vu, vb);" } else { "return vi;" }
                 ));
             }
-            9 | 10 => {
+            10 | 11 => {
                 self.loops += 1;
                 let name = format!("k{}", self.loops);
                 let bound = if self.pick(2) == 0 {
@@ -214,7 +221,7 @@ impl Writer<'_> {
                 self.indent -= 1;
                 self.line("}");
             }
-            11 => {
+            12 => {
                 let selector = self.expression(Type::Signed, 1);
                 self.line(&format!("switch {selector} % 4 {{"));
                 self.indent += 1;
@@ -266,6 +273,9 @@ fn program(tape: &[u8]) -> String {
     writer.text
 }
 
+/// The words that an invocation writes: a float, two integers and a bool, then those that it keeps and a gap.
+type Row = [u32; 8];
+
 /// Four words for each invocation: two floats, two integers.
 fn inputs() -> Vec<[u32; 4]> {
     (0..ROWS as u32)
@@ -278,22 +288,20 @@ fn inputs() -> Vec<[u32; 4]> {
         .collect()
 }
 
-fn interpret(source: &str, inputs: &[[u32; 4]]) -> Vec<[u32; 4]> {
-    let program = compile(source, "program");
-    let floats: Vec<Vec<f32>> = (0..2).map(|i| inputs.iter().map(|r| f32::from_bits(r[i])).collect()).collect();
-    let words: Vec<Vec<u32>> = (2..4).map(|i| inputs.iter().map(|r| r[i]).collect()).collect();
-    let columns =
-        [Column::Float(&floats[0]), Column::Float(&floats[1]), Column::Word(&words[0]), Column::Word(&words[1])];
+/// Runs the shader's entry point as the GPU does: what it says stands in a buffer that it has written.
+fn interpret(source: &str, inputs: &[u8]) -> Vec<Row> {
+    let (module, info) = valid(source).unwrap_or_else(|e| panic!("{e}"));
+    let program = Program::compile(&module, &info, Entry::EntryPoint("call")).unwrap_or_else(|e| panic!("{e}"));
+    let results: Vec<AtomicU32> = (0..ROWS * size_of::<Row>() / 4).map(|_| AtomicU32::new(0)).collect();
+    let resources = Resources::default().buffer(0, 0, inputs).storage(0, 1, &results);
+    let ids: Vec<u32> = (0..ROWS.next_multiple_of(64) as u32).collect();
+    let id = [Column::Word(&ids), Column::Word(&[0]), Column::Word(&[0])];
     let mut out = Outputs::<f32>::default();
     program
-        .run(&columns, inputs.len(), &mut out, &Resources::default(), Derivatives::Zero, Limits::default())
+        .run(&id, ids.len(), &mut out, &resources, Derivatives::Zero, Limits::default())
         .unwrap_or_else(|e| panic!("{e}\n{source}"));
-    let word = |column: &OutputColumn<f32>, row: usize| match column {
-        OutputColumn::Float(all) => all[row].to_bits(),
-        OutputColumn::Word(all) => all[row],
-        OutputColumn::Double(_) => panic!("the program has no f64"),
-    };
-    (0..inputs.len()).map(|row| [0, 1, 2, 3].map(|i| word(&out.columns[i], row))).collect()
+    let words: Vec<u32> = results.into_iter().map(AtomicU32::into_inner).collect();
+    bytemuck::pod_collect_to_vec(&words)
 }
 
 #[test]
@@ -312,8 +320,9 @@ fn random_programs_give_what_a_gpu_gives() {
     let outcome = runner.run(&vec(any::<u8>(), 20..400), |tape| {
         let functions = program(&tape);
         let shader = include_str!("random.wgsl").replace("FUNCTIONS", &functions);
-        let device: Vec<[u32; 4]> = bytemuck::pod_collect_to_vec(&gpu.run(&shader, &bytes, (ROWS * 16) as u64, ROWS));
-        let found = interpret(&functions, &inputs);
+        let size = (ROWS * size_of::<Row>()) as u64;
+        let device: Vec<Row> = bytemuck::pod_collect_to_vec(&gpu.run(&shader, &bytes, size, ROWS));
+        let found = interpret(&shader, &bytes);
         for (row, (found, device)) in found.iter().zip(&device).enumerate() {
             // 0 and -0 are the same number.
             let same = found[1..] == device[1..] && f32::from_bits(found[0]) == f32::from_bits(device[0]);

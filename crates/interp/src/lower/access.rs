@@ -1,10 +1,10 @@
 //! Parts of values, and pointers: to variables, whose registers are known or picked by index, and into buffers, whose
 //! bytes are addressed.
 
-use naga::{AddressSpace, Expression, Handle, Scalar, TypeInner};
+use naga::{AddressSpace, Expression, Handle, TypeInner};
 
 use super::{Frame, Lower, Regs, Result, Value};
-use crate::ir::{BufferRead, Class, Inst, NONE, Node, Op, Reg, Table};
+use crate::ir::{BufferAccess, Class, Inst, NONE, Node, Op, Reg, Table};
 use crate::kernel::{BitsOp, Convert};
 use crate::shape::{self, Parts};
 
@@ -209,9 +209,8 @@ impl<'m> Lower<'m> {
         let TypeInner::Array { stride, .. } = place.inner else {
             return self.refuse("the length of something that is no array");
         };
-        self.ir.reads.push(BufferRead { buffer: place.buffer, offset: place.offset, stride });
-        let read = (self.ir.reads.len() - 1) as u32;
-        self.emit(Op::Length(read), Class::Bits, [NONE; 3])
+        let access = self.access_of(BufferAccess { buffer: place.buffer, offset: place.offset, stride });
+        self.emit(Op::Length(access), Class::Bits, [NONE; 3])
     }
 
     pub(super) fn array_length_of(&mut self, frame: &mut Frame<'m>, array: Handle<Expression>) -> Result<Regs> {
@@ -289,20 +288,37 @@ impl<'m> Lower<'m> {
         }
     }
 
-    fn load_buffer(&mut self, place: &BufferPlace) -> Result<Regs> {
-        let mut scalars: Vec<Scalar> = Vec::new();
-        shape::scalars(self.module, &place.inner, &mut scalars).or_else(|what| self.refuse(what))?;
-        let mut offsets = Vec::with_capacity(scalars.len());
+    /// Adds to the list of what is read and written of buffers.
+    fn access_of(&mut self, access: BufferAccess) -> u32 {
+        self.ir.accesses.push(access);
+        (self.ir.accesses.len() - 1) as u32
+    }
+
+    /// The byte offsets of a place's scalars, before its indices count.
+    fn buffer_offsets(&self, place: &BufferPlace) -> Vec<u32> {
+        let mut offsets = Vec::new();
         shape::offsets(self.module, &place.inner, place.offset, &mut offsets);
+        offsets
+    }
+
+    fn load_buffer(&mut self, place: &BufferPlace) -> Result<Regs> {
+        let classes = self.classes(&place.inner)?;
         let address = self.address(&place.dynamic)?;
-        let mut regs = Vec::with_capacity(scalars.len());
-        for (scalar, offset) in scalars.into_iter().zip(offsets) {
-            let class = shape::class_of(scalar).or_else(|what| self.refuse(what))?;
-            self.ir.reads.push(BufferRead { buffer: place.buffer, offset, stride: 0 });
-            let read = (self.ir.reads.len() - 1) as u32;
-            regs.push(self.emit(Op::Load(read), class, [address, NONE, NONE])?);
+        let mut regs = Vec::with_capacity(classes.len());
+        for (class, offset) in classes.into_iter().zip(self.buffer_offsets(place)) {
+            let access = self.access_of(BufferAccess { buffer: place.buffer, offset, stride: 0 });
+            regs.push(self.emit(Op::Load(access), class, [address, NONE, NONE])?);
         }
         Ok(regs.into())
+    }
+
+    pub(super) fn store_buffer(&mut self, place: &BufferPlace, value: &[Reg]) -> Result<()> {
+        let address = self.address(&place.dynamic)?;
+        for (value, offset) in value.iter().zip(self.buffer_offsets(place)) {
+            let access = self.access_of(BufferAccess { buffer: place.buffer, offset, stride: 0 });
+            self.push(Node::Inst(Inst { op: Op::Store(access), dst: NONE, a: address, b: *value, c: NONE }))?;
+        }
+        Ok(())
     }
 
     /// What a global variable is as an expression.

@@ -148,7 +148,8 @@ impl<'m> Lower<'m> {
                     let value = self.regs(frame, *value)?;
                     match self.value(frame, *pointer)? {
                         Value::Pointer(Pointer::Variable(place)) => self.store_variable(&place, &value)?,
-                        _ => return self.refuse_at("writing to a storage buffer", *span),
+                        Value::Pointer(Pointer::Buffer(place)) => self.store_buffer(&place, &value)?,
+                        _ => return self.refuse_at("writing through something that is no pointer", *span),
                     }
                 }
                 Statement::Call { function, arguments, result } => {

@@ -1,15 +1,16 @@
 //! One instruction on one batch.
 
 use super::file::{File, Place as _, source};
-use super::{Bound, Machine};
+use super::{Bound, Machine, Writers};
 use crate::code::Step;
-use crate::ir::{BufferRead, Class, Op};
+use crate::ir::{BufferAccess, Class, Op};
 use crate::kernel::{
     BitsOp, CompareOp, Convert, FloatOp, LANES, Source, bits_one, compare_one, float_from_bits, float_from_float,
     float_one, int_from_float, map1, map2, round_to_f32, run_bits, run_compare, run_float, run_select,
 };
 use crate::real::Float;
 use crate::real::sealed::Arithmetic as _;
+use crate::resource::Memory;
 
 /// Evaluates an expression per class with the file of floats or of doubles.
 macro_rules! by_width {
@@ -77,28 +78,28 @@ impl<F: Float> Machine<'_, F> {
                     }),
                 }
             }
-            Op::Load(read) => {
-                let read = self.program.reads[read as usize];
-                let bytes = bound.buffers[read.buffer as usize];
+            Op::Load(access) => {
+                let access = self.program.accesses[access as usize];
+                let memory = bound.buffers[access.buffer as usize];
+                let at = |address: u32| access.offset as usize + address as usize;
+                let float = |address| F::from_f64(f64::from(f32::from_bits(memory.word(at(address)))));
+                let double = |address| f64::from_bits(two_words(memory, at(address)));
                 match step.class {
-                    Class::Float => load(&mut self.floats, &self.words, step, read, bytes, |b| {
-                        F::from_f64(f64::from(f32::from_le_bytes(b)))
-                    }),
-                    Class::Double => load(&mut self.doubles, &self.words, step, read, bytes, f64::from_le_bytes),
+                    Class::Float => from_words(&mut self.floats, &self.words, step, float),
+                    Class::Double => from_words(&mut self.doubles, &self.words, step, double),
+                    Class::Bits if step.dst.same_in_all() => {
+                        self.words.same[step.dst.index()] = memory.word(at(self.words.one(step.a)));
+                    }
                     Class::Bits => {
-                        let one = |address: u32| word_at(bytes, read.offset, address);
-                        if step.dst.same_in_all() {
-                            self.words.same[step.dst.index()] = one(self.words.one(step.a));
-                        } else {
-                            let File { blocks, same, scratch } = &mut self.words;
-                            map1(scratch, source(blocks, same, step.a), one);
-                            self.words.commit(step.dst);
-                        }
+                        let File { blocks, same, scratch } = &mut self.words;
+                        map1(scratch, source(blocks, same, step.a), |address| memory.word(at(address)));
+                        self.words.commit(step.dst);
                     }
                 }
             }
-            Op::Length(read) => {
-                let BufferRead { buffer, offset, stride } = self.program.reads[read as usize];
+            Op::Store(access) => self.store(self.program.accesses[access as usize], step, bound),
+            Op::Length(access) => {
+                let BufferAccess { buffer, offset, stride } = self.program.accesses[access as usize];
                 let bytes = bound.buffers[buffer as usize].len().saturating_sub(offset as usize);
                 let length = (bytes / stride.max(1) as usize).min(u32::MAX as usize) as u32;
                 if step.dst.same_in_all() {
@@ -116,6 +117,26 @@ impl<F: Float> Machine<'_, F> {
                 by_width!(self, step.class, file => derivative(file, step, bits));
             }
             Op::Texture(read) => self.texture(read, bound),
+        }
+    }
+
+    /// Writes each active invocation's scalar to its place in a buffer.
+    fn store(&self, access: BufferAccess, step: &Step, bound: &Bound<'_>) {
+        let memory = bound.buffers[access.buffer as usize];
+        let Writers { count, spread } = bound.writers;
+        for lane in (0..count * spread).step_by(spread).filter(|lane| self.mask.lanes[*lane] != 0) {
+            let at = access.offset as usize + self.words.source(step.a).lane(lane) as usize;
+            match step.class {
+                Class::Float => {
+                    memory.set_word(at, (self.floats.source(step.b).lane(lane).to_f64() as f32).to_bits());
+                }
+                Class::Double => {
+                    let bits = self.doubles.source(step.b).lane(lane).to_bits();
+                    memory.set_word(at, bits as u32);
+                    memory.set_word(at + 4, (bits >> 32) as u32);
+                }
+                Class::Bits => memory.set_word(at, self.words.source(step.b).lane(lane)),
+            }
         }
     }
 
@@ -235,31 +256,9 @@ fn scale<T: Float>(file: &mut File<T>, words: &File<u32>, step: &Step) {
     }
 }
 
-/// The bytes at an address; 0 beyond the end, as devices with robust access return.
-fn bytes_at<const N: usize>(bytes: &[u8], offset: u32, address: u32) -> [u8; N] {
-    let start = offset as usize + address as usize;
-    bytes.get(start..start + N).and_then(|b| b.try_into().ok()).unwrap_or([0; N])
-}
-
-fn word_at(bytes: &[u8], offset: u32, address: u32) -> u32 {
-    u32::from_le_bytes(bytes_at(bytes, offset, address))
-}
-
-fn load<T: Float, const N: usize>(
-    file: &mut File<T>,
-    words: &File<u32>,
-    step: &Step,
-    read: BufferRead,
-    bytes: &[u8],
-    number: impl Fn([u8; N]) -> T,
-) {
-    let one = |address: u32| number(bytes_at(bytes, read.offset, address));
-    if step.dst.same_in_all() {
-        file.same[step.dst.index()] = one(words.one(step.a));
-    } else {
-        map1(&mut file.scratch, words.source(step.a), one);
-        file.commit(step.dst);
-    }
+/// Eight bytes of a buffer.
+fn two_words(memory: Memory<'_>, at: usize) -> u64 {
+    u64::from(memory.word(at)) | u64::from(memory.word(at + 4)) << 32
 }
 
 /// Differences within each quad: the lane's number less some bits, with and without a bit.

@@ -114,10 +114,6 @@ fn what_cannot_run_is_named() {
         ("fn f() { workgroupBarrier(); }", "a barrier"),
         ("var<workgroup> w: array<f32, 4>; fn f() -> f32 { return w[1]; }", "workgroup memory"),
         (
-            "@group(0) @binding(0) var<storage, read_write> b: array<f32>; fn f() { b[0] = 1.0; }",
-            "writing to a storage buffer",
-        ),
-        (
             "@group(0) @binding(0) var t: texture_depth_2d; fn f() -> f32 { return textureLoad(t, vec2i(0), 0); }",
             "a depth texture",
         ),

@@ -6,6 +6,7 @@ mod elementary;
 mod flow;
 mod hostile;
 mod semantics;
+mod storage;
 mod support;
 mod textures;
 mod values;
