@@ -337,7 +337,7 @@ impl Canvas {
         for card in sheet.cards.iter().filter(|card| card.rect().intersects(lens.seen())) {
             let id = Id::new(("graph node", &card.id));
             let label = || format!("Node {}", card.title);
-            let header = Rect::from_min_size(card.rect().min, vec2(card.size.x, sheet::HEADER));
+            let header = Rect::from_min_size(card.rect().min, vec2(card.size.x, sheet::HEADER.min(card.size.y)));
             if !tell(id, lens.rect_to_screen(header), Role::ListItem, &label, None, card.is_selected) {
                 // Nobody listens.
                 return;
