@@ -227,6 +227,7 @@ impl Editor {
             let mut behavior = Behavior { session: &self.session, panes: &mut self.panes, actions: &mut actions };
             self.tree.ui(&mut behavior, ui);
         });
+        self.tell_dropped();
         self.panes.thumbnails.end_frame(ui.ctx());
         actions.into_iter().for_each(|action| self.act(action));
         if ui.input(|input| input.pointer.any_released()) {

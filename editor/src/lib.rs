@@ -10,6 +10,7 @@ mod accuracy;
 mod action;
 mod app;
 mod colors;
+mod dropped;
 mod environments;
 mod files;
 mod functions;

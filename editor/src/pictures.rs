@@ -6,10 +6,16 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use halfvector_graph::check::{Problem, Severity};
-use halfvector_graph::document::{Document, Graph};
+use halfvector_graph::document::{Document, Graph, SocketRef};
+use halfvector_graph::edit::Edit;
 use halfvector_graph::flatten::find;
-use halfvector_graph::value::Value;
+use halfvector_graph::node_def::Default as SocketDefault;
+use halfvector_graph::value::{ColorSpace, ImageRef, Value};
 use halfvector_scene::{ImageError, ImageStore, SceneMaterial, normal_map_problems};
+
+use crate::action::Action;
+use crate::files::relative;
+use crate::session::Session;
 
 /// What was loaded last.
 #[derive(Default)]
@@ -99,4 +105,29 @@ fn unread(document: &Document, error: &ImageError) -> Problem {
         socket,
         message: error.fault.to_string(),
     }
+}
+
+/// The value of an input of a definition that reads a file: the path as the document writes it, all else as usual there.
+pub(crate) fn value(session: &Session, definition: &str, input: &str, path: &Path) -> Value {
+    let file = match session.file().and_then(Path::parent) {
+        Some(folder) => relative::written(path, folder),
+        None => path.to_string_lossy().into_owned(),
+    };
+    let input = session.library().get(definition).and_then(|def| def.inputs.iter().find(|one| one.name == input));
+    let color_space = match input.map(|input| &input.default) {
+        Some(SocketDefault::Image(color_space)) => *color_space,
+        _ => ColorSpace::Srgb,
+    };
+    let (wrap_u, wrap_v, filter) = Default::default();
+    Value::Image(ImageRef { file, color_space, wrap_u, wrap_v, filter })
+}
+
+/// Gives an input another picture: how it is read stays.
+pub(crate) fn chosen(session: &Session, socket: &SocketRef, path: &Path) -> Action {
+    let definition = session.node(&socket.node).map_or("", |node| node.node.as_str());
+    let value = match (value(session, definition, &socket.socket, path), session.value(socket)) {
+        (Value::Image(new), Some(Value::Image(old))) => Value::Image(ImageRef { file: new.file, ..old.clone() }),
+        (value, _) => value,
+    };
+    Action::edit("Choose a picture", Edit::SetValue { socket: socket.clone(), value: Some(value) })
 }

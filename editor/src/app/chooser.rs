@@ -4,15 +4,11 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 use egui_file_dialog::{FileDialog, Filter};
-use halfvector_graph::document::SocketRef;
-use halfvector_graph::edit::Edit;
-use halfvector_graph::node_def::Default as SocketDefault;
-use halfvector_graph::value::{ColorSpace, ImageRef, Value};
 
-use crate::action::{Action, Choose};
+use crate::action::Choose;
 use crate::app::Editor;
 use crate::app::files::Next;
-use crate::files::relative;
+use crate::pictures;
 
 /// How the names of materials end.
 const ENDING: &str = ".material.json";
@@ -87,30 +83,10 @@ impl Editor {
             // The dialog has asked about a file that is there.
             Choose::SaveAs => self.save_as(with_ending(path), true),
             Choose::Image(socket) => {
-                let edit = Edit::SetValue { value: Some(self.picture(&socket, &path)), socket };
-                self.act(Action::edit("Choose a picture", edit));
+                self.act(pictures::chosen(&self.session, &socket, &path));
             }
             Choose::ExportFolder => self.export_to(path),
         }
-    }
-
-    /// The value of an input when it gets another picture: all else about it stays.
-    fn picture(&self, socket: &SocketRef, path: &Path) -> Value {
-        let file = match self.session.file().and_then(Path::parent) {
-            Some(folder) => relative::written(path, folder),
-            None => path.to_string_lossy().into_owned(),
-        };
-        if let Some(Value::Image(image)) = self.session.value(socket) {
-            return Value::Image(ImageRef { file, ..image.clone() });
-        }
-        let def = self.session.node(&socket.node).and_then(|node| self.session.library().get(&node.node));
-        let input = def.and_then(|def| def.inputs.iter().find(|input| input.name == socket.socket));
-        let color_space = match input.map(|input| &input.default) {
-            Some(SocketDefault::Image(color_space)) => *color_space,
-            _ => ColorSpace::Srgb,
-        };
-        let (wrap_u, wrap_v, filter) = Default::default();
-        Value::Image(ImageRef { file, color_space, wrap_u, wrap_v, filter })
     }
 
     fn proposed_name(&self) -> String {

@@ -14,6 +14,7 @@ use crate::action::Choose;
 use crate::app::Editor;
 use crate::app::chooser::Chooser;
 use crate::app::questions::Question;
+use crate::dropped::{self, Kind};
 use crate::files::clerk::{Clerk, Order, Report, SaveFault, read};
 use crate::files::record::Lost;
 use crate::files::settings::Settings;
@@ -355,21 +356,15 @@ impl Editor {
 
     /// Opens a material that was dropped on the window. Models, environments and pictures belong to the panes.
     pub(crate) fn take_dropped(&mut self) {
-        let is_material = |path: &Path| path.to_str().is_some_and(|name| name.ends_with(".material.json"));
-        let dropped = self
-            .context
-            .input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect::<Vec<_>>());
-        let unknown =
-            dropped.iter().find(|path| !is_material(path) && !crate::panes::viewport::dropped::is_taken(path));
-        if let Some(path) = unknown {
-            self.messages.fail(format!(
-                "{} is nothing to drop here: materials are *.material.json, models .glb and .gltf, environments .hdr, .exr, \
-                 .hdre, .ktx2, .png and .jpg",
-                path.display()
-            ));
-        }
-        if let Some(path) = dropped.into_iter().find(|path| is_material(path)) {
+        if let Some(path) = dropped::take(&self.context, |kind| kind == Kind::Material).into_iter().next() {
             self.ask(Next::Open(path));
+        }
+    }
+
+    /// Tells of what was dropped and of no use to any part.
+    pub(crate) fn tell_dropped(&mut self) {
+        if let Some(why) = dropped::left(&self.context) {
+            self.messages.fail(why);
         }
     }
 

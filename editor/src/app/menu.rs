@@ -8,6 +8,7 @@ use crate::action::{Action, Choose};
 use crate::app::keys::{self, Command};
 use crate::app::questions::Question;
 use crate::app::{Editor, Pane, layout};
+use crate::panes::canvas::Verb;
 use crate::panes::functions;
 
 /// Sizes of everything that the menu offers.
@@ -73,7 +74,7 @@ impl Editor {
         }
     }
 
-    fn edit_menu(&self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+    fn edit_menu(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
         ui.set_min_width(200.0);
         let [undo, redo] = self.session.steps();
         let entries = [("Undo", undo, Command::Undo, Action::Undo), ("Redo", redo, Command::Redo, Action::Redo)];
@@ -85,11 +86,20 @@ impl Editor {
             }
         }
         ui.separator();
+        let has_selected = !self.session.selection().is_empty();
+        for (verb, name, key) in Verb::ALL {
+            let button = egui::Button::new(name).shortcut_text(key);
+            if ui.add_enabled(has_selected || verb == Verb::Paste, button).clicked() {
+                layout::show(&mut self.tree, Pane::Canvas);
+                self.panes.canvas.ask(verb);
+            }
+        }
+        ui.separator();
         let nodes = &self.session.graph().nodes;
         if ui.add_enabled(!nodes.is_empty(), egui::Button::new("Select all")).clicked() {
             actions.push(Action::Select(nodes.keys().cloned().collect()));
         }
-        if ui.add_enabled(!self.session.selection().is_empty(), egui::Button::new("Select nothing")).clicked() {
+        if ui.add_enabled(has_selected, egui::Button::new("Select nothing")).clicked() {
             actions.push(Action::Select(Vec::new()));
         }
         ui.separator();

@@ -42,6 +42,7 @@ use draw::{Brush, Detail};
 use fields::Editing;
 use gesture::Gesture;
 use hit::Hit;
+pub(crate) use keys::Verb;
 use menus::Meant;
 use notes::NoteId;
 use sheet::{Card, Sheet};
@@ -77,6 +78,8 @@ pub(crate) struct Canvas {
     picked: Option<NoteId>,
     keeps_off_grid: bool,
     hides_map: bool,
+    /// What the window's menu asks for.
+    asked: Vec<Verb>,
 }
 
 /// Which nodes show more than usual.
@@ -160,6 +163,11 @@ impl Canvas {
         self.wanted = vec![node];
     }
 
+    /// Does something with the selected nodes when the canvas is drawn next.
+    pub(crate) fn ask(&mut self, verb: Verb) {
+        self.asked.push(verb);
+    }
+
     /// Draws the graph.
     pub(crate) fn show(
         &mut self,
@@ -212,6 +220,8 @@ impl Canvas {
             self.pointer(ui, &response, &mut desk, &mut sheet);
         }
         self.keys(ui, &response, &mut desk, &sheet);
+        self.do_asked(ui, &response, &mut desk, &sheet);
+        self.take_dropped(ui, &mut desk, &sheet, pointer);
         let hovered = pointer.filter(|_| is_over && !map).map_or(Hit::Empty, |at| hit::hit(&sheet, desk.lens, at));
 
         let colors = theme::canvas(ui.visuals());

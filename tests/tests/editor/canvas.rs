@@ -3,6 +3,7 @@
 use egui_kittest::kittest::Queryable;
 use halfvector_editor::{Action, Options, egui};
 use halfvector_graph::document::SocketRef;
+use halfvector_graph::value::Value;
 
 use super::hands::*;
 use super::open;
@@ -379,5 +380,66 @@ fn nodes_become_a_group_and_its_inside_is_worked_on() {
     while window.state().session().steps()[0].is_some() {
         window.state_mut().act(Action::Undo);
     }
+    assert_eq!(text(&window), before);
+}
+
+#[test]
+fn the_menu_does_what_the_keys_do() {
+    let mut window = window();
+    let before = text(&window);
+    let nodes = document(&window).graph.nodes.len();
+    let choose = |window: &mut Window, entry: &str| {
+        window.get_by_label("Edit").click();
+        window.run_steps(2);
+        window.get_by_label(entry).click();
+        window.run_steps(3);
+    };
+    window.get_by_label("Node Rust grain").click();
+    window.run_steps(2);
+    choose(&mut window, "Duplicate Ctrl+D");
+    assert_eq!(document(&window).graph.nodes.len(), 1 + nodes);
+    choose(&mut window, "Delete Del");
+    assert_eq!(document(&window).graph.nodes.len(), nodes);
+    window.get_by_label("Node Rust grain").click();
+    window.run_steps(2);
+    choose(&mut window, "Cut Ctrl+X");
+    assert!(!document(&window).graph.nodes.contains_key("grain"));
+    // The system hands over what is pasted: the graph has the focus for it.
+    undo_all(&mut window);
+    assert_eq!(text(&window), before);
+}
+
+#[test]
+fn a_picture_that_is_dropped_on_the_graph_is_a_node() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window();
+    let before = text(&window);
+    let file = folder.path().join("bark.png");
+    image::RgbImage::from_pixel(2, 2, image::Rgb([90, 60, 30])).save(&file).expect("written");
+    let at = empty_place(&window);
+    go(&mut window, at);
+    drop_file(&mut window, &file);
+    window.run_steps(2);
+    let selected: Vec<_> = window.state().session().selection().iter().cloned().collect();
+    let [id] = selected.as_slice() else { panic!("{selected:?}") };
+    let node = &document(&window).graph.nodes[id];
+    assert_eq!(node.node, "textures/image");
+    assert!(matches!(&node.values["image"], Value::Image(image) if image.file.ends_with("bark.png")), "{node:?}");
+    // Over an input that takes a picture it is the input's.
+    let other = folder.path().join("moss.png");
+    std::fs::copy(&file, &other).expect("copied");
+    let slot = center(&window, "Thumbnail");
+    go(&mut window, slot);
+    drop_file(&mut window, &other);
+    window.run_steps(2);
+    let image = &document(&window).graph.nodes[id].values["image"];
+    assert!(matches!(image, Value::Image(image) if image.file.ends_with("moss.png")), "{image:?}");
+    // Elsewhere it is told what to do.
+    let menu = center(&window, "Edit");
+    go(&mut window, menu);
+    drop_file(&mut window, &other);
+    window.run_steps(2);
+    assert!(window.query_all_by_label_contains("a picture is dropped on the graph").next().is_some());
+    undo_all(&mut window);
     assert_eq!(text(&window), before);
 }

@@ -3,7 +3,6 @@
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui_kittest::Harness;
@@ -14,6 +13,7 @@ use halfvector_graph::edit::Edit;
 use halfvector_graph::value::{ColorSpace, Filter, ImageRef, Value, Wrap};
 use tempfile::TempDir;
 
+use super::hands::drop_file;
 use super::{open, settle};
 
 /// Tells a test that it is the process that is to be killed.
@@ -220,24 +220,11 @@ fn the_window_does_not_close_over_unsaved_work() {
     assert!(!close(&mut harness));
 }
 
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl egui::DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|error| error.to_string())
-    }
-}
-
 #[test]
 fn a_dropped_material_is_opened() {
     let place = Place::new();
     let mut harness = place.open_new();
-    harness.input_mut().dropped_files.push(Arc::new(Dropped(place.file())));
+    drop_file(&mut harness, &place.file());
     settle(&mut harness);
     assert_eq!(harness.state().session().file(), Some(place.file().as_path()));
 }
@@ -246,9 +233,9 @@ fn a_dropped_material_is_opened() {
 fn a_dropped_file_of_no_use_is_told() {
     let place = Place::new();
     let mut harness = place.open_new();
-    harness.input_mut().dropped_files.push(Arc::new(Dropped(place.folder.path().join("notes.txt"))));
+    drop_file(&mut harness, &place.folder.path().join("notes.txt"));
     settle(&mut harness);
-    assert!(harness.query_all_by_label_contains("notes.txt is nothing to drop here").next().is_some());
+    assert!(harness.query_all_by_label_contains("notes.txt: it is nothing to drop here").next().is_some());
     assert!(!harness.state().session().is_unsaved());
 }
 

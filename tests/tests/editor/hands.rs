@@ -1,5 +1,8 @@
 //! What a person's hands do: pointer and keys, and what they find by its label.
 
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use halfvector_editor::{Action, Editor, egui};
@@ -84,6 +87,26 @@ pub(super) fn add(window: &mut Window, at: egui::Pos2, words: &str) {
     key(window, egui::Modifiers::NONE, egui::Key::Space);
     write(window, words);
     key(window, egui::Modifiers::NONE, egui::Key::Enter);
+}
+
+/// A file as a window system hands it over.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+/// Drops a file where the pointer is.
+pub(super) fn drop_file(window: &mut Harness<'_, Editor>, path: &Path) {
+    window.input_mut().dropped_files.push(Arc::new(Dropped(path.to_owned())));
+    window.step();
 }
 
 pub(super) fn undo_all(window: &mut Window) {

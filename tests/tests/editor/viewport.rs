@@ -1,8 +1,5 @@
 //! The picture: turning it, its lights, what is dropped on it, two sides compared, and no graphics card.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-
 use eframe::egui;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -10,6 +7,7 @@ use halfvector_editor::{Editor, Options};
 use halfvector_graph::needs::ToneMap;
 use halfvector_scene::{EnvironmentSource, MeshSource};
 
+use super::hands::drop_file;
 use super::settle;
 
 /// A window small enough that its pictures cost little.
@@ -44,26 +42,6 @@ fn click(harness: &mut Harness<'_, Editor>, label: &str) {
     harness.get_by_label(label).click();
     harness.step();
     harness.step();
-}
-
-/// A file as a window system hands it over.
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl egui::DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|error| error.to_string())
-    }
-}
-
-fn drop_file(harness: &mut Harness<'_, Editor>, path: &Path) {
-    harness.input_mut().dropped_files.push(Arc::new(Dropped(path.to_owned())));
-    harness.step();
-    settle(harness);
 }
 
 const PICTURE: &str = "Picture of the material";
@@ -111,11 +89,13 @@ fn environments_and_models_come_by_drop_and_bad_ones_change_nothing() {
     let pixels: Vec<u8> = (0..8u8).flat_map(|i| [90 + i, 100, 120, 128]).collect();
     std::fs::write(&sky, [b"#?RADIANCE\n\n-Y 2 +X 4\n".as_slice(), &pixels].concat()).expect("written");
     drop_file(&mut harness, &sky);
+    settle(&mut harness);
     assert_eq!(harness.state().stage().environment, EnvironmentSource::File(sky.clone()));
 
     let broken = folder.path().join("broken.hdr");
     std::fs::write(&broken, "no picture").expect("written");
     drop_file(&mut harness, &broken);
+    settle(&mut harness);
     assert_eq!(harness.state().stage().environment, EnvironmentSource::File(sky));
     assert!(harness.query_by_label_contains("The environment stays as it was").is_some());
     click(&mut harness, "Dismiss");
@@ -125,12 +105,14 @@ fn environments_and_models_come_by_drop_and_bad_ones_change_nothing() {
     let broken = folder.path().join("broken.glb");
     std::fs::write(&broken, "no model").expect("written");
     drop_file(&mut harness, &broken);
+    settle(&mut harness);
     assert_eq!(harness.state().stage().mesh, mesh);
     assert!(harness.query_by_label_contains("The model stays as it was").is_some());
 
     let triangle = folder.path().join("triangle.gltf");
     std::fs::write(&triangle, TRIANGLE).expect("written");
     drop_file(&mut harness, &triangle);
+    settle(&mut harness);
     assert_eq!(harness.state().stage().mesh, MeshSource::File(triangle));
     // It stands far off and is brought into view.
     assert!(harness.state().stage().orbit.target.x > 90.0, "{:?}", harness.state().stage().orbit);
@@ -146,8 +128,8 @@ fn a_bake_is_cancelled() {
     let head = b"#?RADIANCE\n\n-Y 1024 +X 2048\n".as_slice();
     let pixels: Vec<u8> = (0..2048 * 1024_u32).flat_map(|i| [(i % 251) as u8, 100, 120, 128]).collect();
     std::fs::write(&sky, [head, &pixels].concat()).expect("written");
-    harness.input_mut().dropped_files.push(Arc::new(Dropped(sky.clone())));
-    harness.run_steps(3);
+    drop_file(&mut harness, &sky);
+    harness.run_steps(2);
     assert_eq!(harness.state().stage().environment, EnvironmentSource::File(sky));
     harness.get_by_label_contains("Preparing the environment");
     click(&mut harness, "Cancel");

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Id, Pos2};
 use halfvector_graph::check::node_label;
-use halfvector_graph::document::{Link, SocketRef, group_of};
+use halfvector_graph::document::{Link, Node, SocketRef, free_name, group_of};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::node_def::NodeDef;
 
@@ -10,8 +10,13 @@ use super::fit::{self, Loose};
 use super::sheet::{Sheet, shown};
 use super::{Canvas, Desk, edits, view};
 use crate::action::Action;
+use crate::dropped::{Kind, take};
 use crate::functions;
 use crate::palette::{self, Outcome};
+use crate::pictures;
+
+/// The node that a dropped picture becomes.
+const IMAGE: &str = "textures/image";
 
 /// Where a node of the palette goes.
 #[derive(Clone, Debug, Default)]
@@ -86,6 +91,25 @@ impl Canvas {
             edits::put_into(desk.session, &mut arrival, link);
         }
         desk.arrive(sheet, format!("Add {}", def.label), arrival);
+    }
+
+    /// Adds a node for each picture that is dropped on the graph, one below the other.
+    pub(super) fn take_dropped(&self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, pointer: Option<Pos2>) {
+        let Some(at) = pointer.filter(|at| desk.lens.pane.contains(*at)) else { return };
+        let mut all = edits::Arrival::default();
+        let mut place = view::to_grid(desk.lens.to_canvas(at));
+        for path in take(ui.ctx(), |kind| kind == Kind::Picture) {
+            let id = free_name("image", |id| desk.graph.nodes.contains_key(id) || all.ids.iter().any(|one| one == id));
+            let value = pictures::value(desk.session, IMAGE, "image", &path);
+            let node = Edit::AddNode { id: id.clone(), node: Node::new(IMAGE).with("image", value) };
+            let position = Edit::MoveNode { id: id.clone(), position: Some(place.into()) };
+            all.edits.push(desk.session.here(Edit::Many(vec![node, position])));
+            all.ids.push(id);
+            place.y += view::GRID * 12.0;
+        }
+        if !all.ids.is_empty() {
+            desk.arrive(sheet, "Add a picture", all);
+        }
     }
 
     /// Adds a function of the document with a node of it, and brings its text to the front.

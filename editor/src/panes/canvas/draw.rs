@@ -145,6 +145,11 @@ impl Brush<'_> {
                 radius,
                 header_color,
             );
+            // From afar the name alone, no smaller than it can be read, where the card has room for it.
+            if rect.width() >= 34.0 && rect.height() >= 14.0 {
+                let at = pos2(rect.left() + 3.0, rect.center().y + HEADER * zoom / 2.0);
+                self.text(at, Align2::LEFT_CENTER, &card.title, 9.0 / zoom, self.colors.text, rect.width() - 6.0);
+            }
             return;
         }
         if self.detail == Detail::Full {

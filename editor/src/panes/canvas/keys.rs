@@ -19,7 +19,49 @@ use crate::action::Action;
 /// How far duplicates lie from their originals.
 const BESIDE: egui::Vec2 = vec2(GRID * 2.0, GRID * 2.0);
 
+/// What the window's menu can do with the selected nodes; each is a key of the canvas, too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verb {
+    Cut,
+    Copy,
+    Paste,
+    Duplicate,
+    Delete,
+    DeleteAndHeal,
+}
+
+impl Verb {
+    /// All, with their names and keys.
+    pub(crate) const ALL: [(Verb, &str, &str); 6] = [
+        (Verb::Cut, "Cut", "Ctrl+X"),
+        (Verb::Copy, "Copy", "Ctrl+C"),
+        (Verb::Paste, "Paste", "Ctrl+V"),
+        (Verb::Duplicate, "Duplicate", "Ctrl+D"),
+        (Verb::Delete, "Delete", "Del"),
+        (Verb::DeleteAndHeal, "Delete and heal", "Ctrl+Del"),
+    ];
+}
+
 impl Canvas {
+    /// Does what the window's menu has asked for.
+    pub(super) fn do_asked(&mut self, ui: &egui::Ui, response: &Response, desk: &mut Desk<'_>, sheet: &Sheet) {
+        for verb in std::mem::take(&mut self.asked) {
+            match verb {
+                Verb::Cut => {
+                    self.copy(ui, desk);
+                    self.remove(desk, sheet, false);
+                }
+                Verb::Copy => self.copy(ui, desk),
+                Verb::Paste => ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste),
+                Verb::Duplicate => self.duplicate(desk, sheet),
+                Verb::Delete => self.remove(desk, sheet, false),
+                Verb::DeleteAndHeal => self.remove(desk, sheet, true),
+            }
+            // What is pasted comes as an event, which the focus takes.
+            response.request_focus();
+        }
+    }
+
     /// Does what the keys ask for.
     pub(super) fn keys(&mut self, ui: &egui::Ui, response: &Response, desk: &mut Desk<'_>, sheet: &Sheet) {
         if self.palette.is_open() || self.editing.is_some() {

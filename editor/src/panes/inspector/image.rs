@@ -8,9 +8,11 @@ use halfvector_graph::edit::Edit;
 use halfvector_graph::value::{ColorSpace, Filter, ImageRef, Value, Wrap};
 
 use crate::action::{Action, Choose};
+use crate::dropped::{Kind, take};
 use crate::panes::inspector::input::{self, Slot};
 use crate::panes::inspector::row::{in_words, row};
 use crate::panes::inspector::thumbnail::{Thumbnail, Thumbnails};
+use crate::pictures;
 use crate::session::Session;
 use crate::theme;
 
@@ -30,6 +32,7 @@ pub(crate) fn show(
         Some(Value::Image(image)) => Some(image),
         _ => None,
     };
+    let top = ui.cursor().top();
     let mut chosen = Vec::new();
     let mut menu = |ui: &mut egui::Ui| input::menu(ui, session, slot, &socket, None, &mut chosen);
     let name = RichText::new(in_words(&slot.input.name));
@@ -51,14 +54,21 @@ pub(crate) fn show(
         Some(&mut menu),
     );
     actions.extend(chosen);
-    let Some(image) = image else { return };
-    ui.indent("image", |ui| {
-        ui.horizontal(|ui| {
-            let path = session.directory().join(&image.file);
-            picture(ui, path, thumbnails);
-            ui.vertical(|ui| reading(ui, &socket, image, actions));
+    if let Some(image) = image {
+        ui.indent("image", |ui| {
+            ui.horizontal(|ui| {
+                let path = session.directory().join(&image.file);
+                picture(ui, path, thumbnails);
+                ui.vertical(|ui| reading(ui, &socket, image, actions));
+            });
         });
-    });
+    }
+    let place = egui::Rect::from_x_y_ranges(ui.max_rect().x_range(), top..=ui.cursor().top());
+    if ui.rect_contains_pointer(place)
+        && let Some(path) = take(ui.ctx(), |kind| kind == Kind::Picture).first()
+    {
+        actions.push(pictures::chosen(session, &socket, path));
+    }
 }
 
 fn picture(ui: &mut egui::Ui, path: PathBuf, thumbnails: &mut Thumbnails) {
