@@ -2,6 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use exr::prelude::{
+    ReadChannels as _, ReadLayers as _, ReadSpecificChannel as _, SpecificChannels, WritableImage as _,
+};
 use halfvector_scene::{Display, Picture};
 use image::{ExtendedColorType, ImageEncoder};
 
@@ -28,6 +31,9 @@ pub(crate) enum PictureFormat {
     Hdr,
 }
 
+/// Where an .exr file holds the standard errors of red, green and blue.
+const ERROR_CHANNELS: [&str; 3] = ["error.R", "error.G", "error.B"];
+
 /// Reads a file name by its extension.
 pub(crate) fn parse_picture_file(text: &str) -> Result<PictureFile, String> {
     let path = PathBuf::from(text);
@@ -41,18 +47,29 @@ pub(crate) fn parse_picture_file(text: &str) -> Result<PictureFile, String> {
     Ok(PictureFile { path, format })
 }
 
-/// Writes a picture in the file's format.
-pub(crate) fn write(file: &PictureFile, picture: &Picture, display: Display) -> Result<(), Failure> {
-    let bytes = match file.format {
-        PictureFormat::Png => png(picture, display),
-        PictureFormat::Exr => exr(picture),
-        PictureFormat::Hdr => hdr(picture),
+/// Writes a picture in the file's format. The standard error of each pixel stands in an .exr beside it, in the channels
+/// `error.R`, `error.G` and `error.B`; other formats have no place for it.
+pub(crate) fn write(
+    file: &PictureFile,
+    picture: &Picture,
+    error: Option<&[[f32; 3]]>,
+    display: Display,
+) -> Result<(), Failure> {
+    let bytes = match (file.format, error) {
+        (PictureFormat::Png, _) => png(picture, display),
+        (PictureFormat::Exr, None) => exr(picture),
+        (PictureFormat::Exr, Some(error)) => {
+            let bytes = exr_with_error(picture, error);
+            let bytes = bytes.map_err(|error| encoding_failed(&file.path, &error))?;
+            return write_file(&file.path, &bytes);
+        }
+        (PictureFormat::Hdr, _) => hdr(picture),
     };
     let bytes = bytes.map_err(|error| encoding_failed(&file.path, &error))?;
     write_file(&file.path, &bytes)
 }
 
-fn encoding_failed(path: &Path, error: &image::ImageError) -> Failure {
+fn encoding_failed(path: &Path, error: &dyn std::error::Error) -> Failure {
     Failure::input("the picture could not be coded")
         .at(path)
         .because(error)
@@ -84,6 +101,35 @@ fn exr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
     Ok(bytes.into_inner())
 }
 
+fn exr_with_error(picture: &Picture, error: &[[f32; 3]]) -> Result<Vec<u8>, exr::error::Error> {
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    let channels = SpecificChannels::build().with_channel("R").with_channel("G").with_channel("B").with_channel("A");
+    let [of_r, of_g, of_b] = ERROR_CHANNELS;
+    let channels = channels.with_channel(of_r).with_channel(of_g).with_channel(of_b).with_pixel_fn(|place| {
+        let at = place.y() * width + place.x();
+        let ([r, g, b, a], [dr, dg, db]) = (picture.pixels[at], error[at]);
+        (r, g, b, a, dr, dg, db)
+    });
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    exr::image::Image::from_channels((width, height), channels).write().to_buffered(&mut bytes)?;
+    Ok(bytes.into_inner())
+}
+
+/// The standard errors of an .exr file's pixels, when all are there and finite.
+pub(crate) fn standard_errors(path: &Path) -> Option<Vec<[f64; 3]>> {
+    let [of_r, of_g, of_b] = ERROR_CHANNELS;
+    let channels = exr::image::read::read().no_deep_data().largest_resolution_level().specific_channels();
+    let pixels = channels.required(of_r).required(of_g).required(of_b).collect_pixels(
+        |size, _| (size.width(), vec![[0.0; 3]; size.area()]),
+        |(width, all): &mut (usize, Vec<[f64; 3]>), place, (r, g, b): (f32, f32, f32)| {
+            all[place.y() * *width + place.x()] = [r, g, b].map(f64::from);
+        },
+    );
+    let image = pixels.first_valid_layer().all_attributes().from_file(path).ok()?;
+    let (_, errors) = image.layer_data.channel_data.pixels;
+    errors.as_flattened().iter().all(|x| x.is_finite() && *x >= 0.0).then_some(errors)
+}
+
 fn hdr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
     let mut bytes = Vec::new();
     let pixels: Vec<_> = picture.pixels.iter().map(|&pixel| image::Rgb(rounded_for_rgbe(pixel))).collect();
@@ -112,6 +158,21 @@ mod tests {
         assert_eq!(parse_picture_file("a/b.PNG").expect("png").format, PictureFormat::Png);
         assert_eq!(parse_picture_file("b.exr").expect("exr").format, PictureFormat::Exr);
         assert!(parse_picture_file("b.jpg").is_err() && parse_picture_file("png").is_err());
+    }
+
+    #[test]
+    fn standard_errors_stand_beside_the_colours() {
+        let picture = Picture { width: 1, height: 2, pixels: vec![[0.5, 7.0, 1e-3, 0.25], [1e4, 0.0, 2.0, 1.0]] };
+        let error = [[0.1, 0.2, 0.3], [4.0, 0.0, 6.0]];
+        let folder = tempfile::tempdir().expect("a folder");
+        let [with, without] = ["with.exr", "without.exr"].map(|name| folder.path().join(name));
+        let bytes = exr_with_error(&picture, &error).expect("coded");
+        std::fs::write(&with, &bytes).expect("written");
+        std::fs::write(&without, exr(&picture).expect("coded")).expect("written");
+        let colors = image::load_from_memory(&bytes).expect("readable").into_rgba32f();
+        assert_eq!(colors.as_raw().as_slice(), picture.pixels.as_flattened());
+        assert_eq!(standard_errors(&with), Some(error.map(|e| e.map(f64::from)).to_vec()));
+        assert_eq!(standard_errors(&without), None);
     }
 
     #[test]

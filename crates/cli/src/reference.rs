@@ -48,6 +48,7 @@ pub(crate) fn draw(scene: &Scene, options: ReferenceOptions, output: &PictureFil
     if let Ok(bar) = bar.lock() {
         bar.0.finish_and_clear();
     }
+    reference.faults().iter().for_each(|text| note(format_args!("warning: {text}")));
     let picture = reference.picture();
     let (mut noise, mut light) = (0.0, 0.0);
     for (pixel, error) in picture.pixels.iter().zip(&picture.standard_error) {
@@ -63,7 +64,8 @@ pub(crate) fn draw(scene: &Scene, options: ReferenceOptions, output: &PictureFil
     }
     let pixels = picture.pixels.iter().map(|pixel| pixel.map(|x| x as f32)).collect();
     let display = Display::ToneMapped { exposure: scene.exposure.factor(), tone_map: scene.tone_map };
-    write(output, &Picture { width, height, pixels }, display)?;
+    let error: Vec<[f32; 3]> = picture.standard_error.iter().map(|error| error.map(|x| x as f32)).collect();
+    write(output, &Picture { width, height, pixels }, Some(&error), display)?;
     note(format_args!("{}: {width} x {height}, drawn by the reference", output.path.display()));
     Ok(())
 }

@@ -32,7 +32,9 @@ pub enum ReferenceError {
         count: usize,
     },
     /// A size of 0, or too large.
-    #[error("a picture of {width} x {height} cannot be rendered; at most 2^28 pixels are possible")]
+    #[error(
+        "a picture of {width} x {height} cannot be rendered; the reference takes at most 2^25 pixels, such as 8192 x 4096"
+    )]
     PictureSize {
         /// Pixels in a row.
         width: u32,

@@ -2,6 +2,7 @@
 //! points at once.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{DVec2, DVec3};
 use halfvector_codegen::input_value;
@@ -192,6 +193,8 @@ pub(crate) struct Material {
     samplers: Vec<((u32, u32), halfvector_interp::Sampler)>,
     /// Whether it takes derivatives of its own, beside those that choose a texture's level.
     pub(crate) derives: bool,
+    /// Points at which it was evaluated, and those of them at which it gave no finite surface.
+    looked_at: [AtomicU64; 2],
     /// What it asks of points; tangents where it is brushed along them, too.
     pub(crate) detail: Detail,
     /// What opacity does, and whether both sides are seen.
@@ -257,6 +260,7 @@ impl Material {
             samplers: Vec::new(),
             // The text of comments may say so too: that costs time, no more.
             derives: ["dpdx", "dpdy", "fwidth"].iter().any(|name| shader.wgsl.contains(name)),
+            looked_at: Default::default(),
             detail: Detail::default(),
             settings: document.surface,
             program,
@@ -332,6 +336,12 @@ impl Material {
         Ok(moved)
     }
 
+    /// The share of the points so far at which it gave no finite surface.
+    pub(crate) fn share_not_finite(&self) -> f64 {
+        let [all, not_finite] = [0, 1].map(|i| self.looked_at[i].load(Ordering::Relaxed) as f64);
+        if not_finite > 0.0 { not_finite / all } else { 0.0 }
+    }
+
     /// The machine that evaluates it: one for each thread.
     pub(crate) fn evaluator(&self, name: &str) -> Result<Evaluator<'_>, ReferenceError> {
         let wrong = |why: String| ReferenceError::Material { material: name.to_owned(), why };
@@ -395,12 +405,17 @@ impl Evaluator<'_> {
             })
             .collect();
         let mut numbers = [0.0; NUMBERS];
+        let mut strange = 0;
         surfaces.extend((0..points.len()).map(|i| {
             for (place, column) in &columns {
                 numbers[*place] = column[i];
             }
+            strange += u64::from(!numbers.iter().all(|x| x.is_finite()));
             Surface::from_numbers(&numbers)
         }));
+        let [all, not_finite] = &self.material.looked_at;
+        all.fetch_add(points.len() as u64, Ordering::Relaxed);
+        not_finite.fetch_add(strange, Ordering::Relaxed);
         Ok(())
     }
 

@@ -57,8 +57,8 @@ impl Default for RenderOptions {
     }
 }
 
-/// Most pixels of a picture.
-const MAX_PIXELS: u64 = 1 << 28;
+/// Most pixels of a picture: some 6 GiB of sums.
+const MAX_PIXELS: u64 = 1 << 25;
 /// Pixels along an edge of a tile: what one thread takes at a time.
 const TILE: u32 = 16;
 
@@ -156,6 +156,20 @@ impl<'a> Reference<'a> {
     /// What of the scene is not rendered, in the user's words.
     pub fn notes(&self) -> &[String] {
         &self.notes
+    }
+
+    /// What of the paths so far had no finite light, in the user's words. Such paths count as black.
+    pub fn faults(&self) -> Vec<String> {
+        let shares = self.materials.iter().zip(&self.names).filter_map(|(m, name)| Some((m.as_ref()?, name)));
+        let strange = shares.map(|(m, name)| (m.share_not_finite(), name)).filter(|(share, _)| *share > 0.0);
+        let told = strange.map(|(share, name)| {
+            format!(
+                "the material `{name}` is NaN or infinite at {:.2} % of the points: they are black here, and anything elsewhere; \
+                 `halfvector check --stability` finds the node",
+                (100.0 * share).max(0.01)
+            )
+        });
+        told.collect()
     }
 
     /// Traces so many more paths for each pixel, on all cores. `progress` is told the share that is done, 0 to 1, by

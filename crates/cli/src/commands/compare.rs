@@ -3,18 +3,21 @@
 use std::path::{Path, PathBuf};
 
 use halfvector_maps::color::linear_from_srgb;
-use halfvector_reference::metrics::{Difference, FlipOptions, difference, flip_hdr, flip_ldr, magma};
+use halfvector_reference::metrics::{Difference, FlipOptions, difference, flip_hdr, flip_ldr, flip_of_noise, magma};
 use image::{ExtendedColorType, ImageEncoder};
 
 use crate::failure::Failure;
 use crate::output::{check_place, note, print, print_json, write_file};
-use crate::picture_file::{PictureFormat, parse_picture_file};
+use crate::picture_file::{PictureFormat, parse_picture_file, standard_errors};
 
 /// Says how different a picture is from a reference: FLIP, root mean square, relative error.
 ///
 /// Two .png files are compared as they are shown, two files of .exr or .hdr as radiance. FLIP is how different they look in
 /// turns, 0 to 1: of display values (Andersson et al. 2020), or of radiance at all exposures at which the reference shows
 /// anything (2021). RMSE and relative error are of the numbers in the files: sRGB codes over 255, or radiance.
+///
+/// An .exr of --backend reference holds the standard error of each pixel: what noise adds is then taken off RMSE and relative
+/// error, and it is said what FLIP such noise alone has: a mean no larger than that shows no difference.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Example:
   halfvector compare mine.exr reference.exr -o difference.png --format json")]
@@ -48,6 +51,9 @@ struct Pixels {
     height: usize,
     /// As the file has them, times alpha.
     numbers: Vec<[f64; 3]>,
+    alpha: Vec<f64>,
+    /// Standard error of each number, where the file has it.
+    error: Option<Vec<[f64; 3]>>,
     /// Whether they are sRGB codes over 255.
     displayed: bool,
 }
@@ -90,12 +96,22 @@ pub(crate) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     } else {
         flip_hdr(&reference.numbers, &test.numbers, test.width, FlipOptions::default())
     };
+    let noise = combined(&test, &reference);
+    let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len() as f64;
     let flip = Flip {
         kind: if test.displayed { "ldr" } else { "hdr" },
-        mean: errors.iter().sum::<f64>() / errors.len() as f64,
+        mean: mean(&errors),
         largest: errors.iter().copied().fold(0.0, f64::max),
+        of_noise: noise.as_ref().map(|noise| {
+            mean(&flip_of_noise(flip_hdr, &reference.numbers, noise, reference.width, FlipOptions::default()))
+        }),
     };
-    let numbers = difference(&test.numbers, &reference.numbers, None);
+    let numbers = Numbers {
+        difference: difference(&test.numbers, &reference.numbers, noise.as_deref()),
+        is_black: reference.numbers.as_flattened().iter().sum::<f64>() <= 0.0,
+        noise: noise.map(|noise| rms(noise.as_flattened())),
+        alpha: AlphaDifference::of(&test.alpha, &reference.alpha),
+    };
     if let Some(path) = &args.output {
         write_file(path, &heat_map(&errors, test.width, path)?)?;
         note(format_args!("{}: FLIP of each pixel", path.display()));
@@ -112,31 +128,89 @@ struct Flip {
     kind: &'static str,
     mean: f64,
     largest: f64,
+    /// Mean of what noise of the known standard errors alone has.
+    of_noise: Option<f64>,
 }
 
-fn text(flip: &Flip, numbers: &Difference) -> String {
-    format!(
-        "FLIP ({})       mean {:.6}  largest {:.6}\nRMSE             {:.6e}\nrelative error   {:.6e}\nmean difference  \
-         {:+.4} %\nlargest          {:.6e}",
+/// What the numbers say.
+struct Numbers {
+    difference: Difference,
+    /// Nothing is relative to a reference without light.
+    is_black: bool,
+    /// Root mean square of the standard errors of the difference.
+    noise: Option<f64>,
+    alpha: AlphaDifference,
+}
+
+/// How alpha differs, which the other figures do not look at.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct AlphaDifference {
+    pixels: usize,
+    largest: f64,
+}
+
+impl AlphaDifference {
+    fn of(test: &[f64], reference: &[f64]) -> AlphaDifference {
+        let differences = test.iter().zip(reference).map(|(a, b)| (a - b).abs());
+        differences.fold(AlphaDifference::default(), |all, d| AlphaDifference {
+            pixels: all.pixels + usize::from(d > 0.0),
+            largest: all.largest.max(d),
+        })
+    }
+}
+
+/// The standard error of the difference of two pictures, as far as their files know it.
+fn combined(test: &Pixels, reference: &Pixels) -> Option<Vec<[f64; 3]>> {
+    match (&test.error, &reference.error) {
+        (Some(a), Some(b)) => Some(a.iter().zip(b).map(|(a, b)| std::array::from_fn(|c| a[c].hypot(b[c]))).collect()),
+        (one, other) => one.as_ref().or(other.as_ref()).cloned(),
+    }
+}
+
+fn rms(numbers: &[f64]) -> f64 {
+    (numbers.iter().map(|x| x * x).sum::<f64>() / numbers.len() as f64).sqrt()
+}
+
+fn text(flip: &Flip, numbers: &Numbers) -> String {
+    let Difference { rmse, relative, mean_relative, largest } = numbers.difference;
+    let mean = if numbers.is_black {
+        "none: the reference is black".into()
+    } else {
+        format!("{:+.4} %", 100.0 * mean_relative)
+    };
+    let mut text = format!(
+        "FLIP ({})       mean {:.6}  largest {:.6}\nRMSE             {rmse:.6e}\nrelative error   {relative:.6e}\nmean difference  \
+         {mean}\nlargest          {largest:.6e}",
         flip.kind.to_uppercase(),
         flip.mean,
         flip.largest,
-        numbers.rmse,
-        numbers.relative,
-        100.0 * numbers.mean_relative,
-        numbers.largest
-    )
+    );
+    if let (Some(noise), Some(of_noise)) = (numbers.noise, flip.of_noise) {
+        text += &format!(
+            "\nstandard error   {noise:.6e}, taken off RMSE and relative error\nFLIP of noise    mean {of_noise:.6}"
+        );
+    }
+    let AlphaDifference { pixels, largest } = numbers.alpha;
+    if pixels > 0 {
+        text += &format!(
+            "\nalpha            differs in {pixels} pixels by up to {largest:.6}, which no other figure counts"
+        );
+    }
+    text
 }
 
-fn json(flip: &Flip, numbers: &Difference, pixels: &Pixels) -> serde_json::Value {
+fn json(flip: &Flip, numbers: &Numbers, pixels: &Pixels) -> serde_json::Value {
+    let Difference { rmse, relative, mean_relative, largest } = numbers.difference;
     serde_json::json!({
         "width": pixels.width,
         "height": pixels.height,
-        "flip": {"kind": flip.kind, "mean": flip.mean, "largest": flip.largest},
-        "rmse": numbers.rmse,
-        "relative": numbers.relative,
-        "mean_relative": numbers.mean_relative,
-        "largest": numbers.largest,
+        "flip": {"kind": flip.kind, "mean": flip.mean, "largest": flip.largest, "of_noise": flip.of_noise},
+        "rmse": rmse,
+        "relative": relative,
+        "mean_relative": (!numbers.is_black).then_some(mean_relative),
+        "largest": largest,
+        "standard_error": numbers.noise,
+        "alpha": {"pixels": numbers.alpha.pixels, "largest": numbers.alpha.largest},
     })
 }
 
@@ -148,8 +222,9 @@ fn read(path: &Path) -> Result<Pixels, Failure> {
     let image = image::open(path).map_err(|error| failed(error.to_string()))?;
     let (width, height) = (image.width() as usize, image.height() as usize);
     let displayed = format == PictureFormat::Png;
+    let image = image.into_rgba32f();
+    let alpha = image.pixels().map(|pixel| f64::from(pixel.0[3])).collect();
     let numbers: Vec<[f64; 3]> = image
-        .into_rgba32f()
         .pixels()
         .map(|pixel| {
             let [r, g, b, a] = pixel.0.map(f64::from);
@@ -164,7 +239,9 @@ fn read(path: &Path) -> Result<Pixels, Failure> {
             .because(format!("the first is at column {}, row {}", i % width, i / width))
             .try_to("another picture"));
     }
-    Ok(Pixels { width, height, numbers, displayed })
+    let error = if format == PictureFormat::Exr { standard_errors(path) } else { None };
+    let error = error.filter(|error| error.len() == numbers.len());
+    Ok(Pixels { width, height, numbers, alpha, error, displayed })
 }
 
 fn heat_map(errors: &[f64], width: usize, path: &Path) -> Result<Vec<u8>, Failure> {

@@ -50,8 +50,9 @@ pub(crate) struct RenderArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = parse_size)]
     size: [u32; 2],
-    /// Samples per pixel: a square number, as they stand on a regular grid; with --backend reference paths per pixel
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    /// Samples per pixel: a square number, as they stand on a regular grid, of 4096 at most; with --backend reference paths
+    /// per pixel
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     samples: u32,
     /// Brightens a PNG by so many stops
     #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = parse_finite)]
@@ -104,6 +105,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     if args.seed != 0 || args.bounces != 0 {
         note("note: --seed and --bounces do nothing here: they are for --backend reference");
     }
+    if args.samples > MAX_SAMPLES {
+        let why = format!("--samples {} is more than {MAX_SAMPLES}", args.samples);
+        return Err(Failure::usage(why).try_to("fewer, or --backend reference"));
+    }
     let side = samples_per_side(args.samples);
     if side * side != args.samples {
         note(format_args!(
@@ -133,7 +138,7 @@ pub(crate) fn draw(
     } else {
         Display::ToneMapped { exposure: scene.exposure.factor(), tone_map: scene.tone_map }
     };
-    write(output, &picture, display)?;
+    write(output, &picture, None, display)?;
     let [width, height] = size;
     note(format_args!("{}: {width} x {height}, drawn by {}", output.path.display(), painter.name()));
     Ok(())
@@ -238,6 +243,9 @@ fn parse_background(text: &str) -> Result<Background, String> {
         },
     }
 }
+
+/// Most samples of a pixel by the backends that take them on a grid.
+const MAX_SAMPLES: u32 = 4096;
 
 /// Most pixels of a picture: 4 GiB of samples' means.
 const MAX_PIXELS: u64 = 1 << 28;

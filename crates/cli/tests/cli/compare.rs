@@ -35,6 +35,39 @@ fn figures_and_a_heat_map() {
     assert_eq!(bright["flip"]["kind"].as_str(), Some("hdr"));
 }
 
+/// Pictures of the reference know their noise: what it adds is taken off, and what it looks like is told.
+#[test]
+fn noise_that_is_known_is_no_difference() {
+    let folder = Folder::new();
+    for (name, seed) in [("a.exr", "1"), ("b.exr", "2")] {
+        let plain = ["render", "plain.material.json", "--backend", "reference", "--size", "24x24"];
+        folder.run(&[&plain[..], &["--samples", "64", "--seed", seed, "-o", name]].concat()).ends(0);
+    }
+    let noisy = folder.run(&["compare", "a.exr", "b.exr", "--format", "json"]).ends(0).json();
+    let figure = |name: &str| noisy[name].as_f64().unwrap_or_else(|| panic!("{name}: {noisy}"));
+    assert!(figure("rmse") < 0.5 * figure("standard_error") && figure("standard_error") > 0.0, "{noisy}");
+    let (flip, of_noise) = (noisy["flip"]["mean"].as_f64(), noisy["flip"]["of_noise"].as_f64());
+    let ratio = flip.expect("FLIP") / of_noise.expect("of noise");
+    assert!((0.6..1.5).contains(&ratio), "{noisy}");
+    let text = folder.run(&["compare", "a.exr", "b.exr"]).ends(0).stdout;
+    assert!(text.contains("taken off RMSE") && text.contains("FLIP of noise"), "{text}");
+}
+
+#[test]
+fn alpha_and_a_black_reference_are_told() {
+    let folder = Folder::new();
+    png(&folder, "black.png", [12, 8], [0, 0, 0, 255]);
+    png(&folder, "clear.png", [12, 8], [0, 0, 0, 0]);
+    let run = folder.run(&["compare", "clear.png", "black.png", "--format", "json"]).ends(0).json();
+    assert_eq!((run["alpha"]["pixels"].as_u64(), run["alpha"]["largest"].as_f64()), (Some(96), Some(1.0)), "{run}");
+    assert!(run["mean_relative"].is_null() && run["standard_error"].is_null(), "{run}");
+    let text = folder.run(&["compare", "clear.png", "black.png"]).ends(0).stdout;
+    assert!(
+        text.contains("the reference is black") && text.contains("alpha            differs in 96 pixels"),
+        "{text}"
+    );
+}
+
 #[test]
 fn what_cannot_be_compared() {
     let folder = Folder::new();

@@ -34,4 +34,13 @@ fn the_reference_renders_without_a_gpu() {
     assert!(middle[3] == 1.0 && middle[0] > 0.5 && middle[2] < 0.2 && corner.0 == [0.0; 4], "{middle:?} {corner:?}");
     render("shown.png", &[]).ends(0);
     render("coded.png", &["--method", "encode=report"]).ends(1).says("encode=report");
+    // Not an abort for want of memory; and more paths than a grid has.
+    let other = |size: &str, samples: &str| {
+        let plain = ["render", "plain.material.json", "--backend", "reference", "-o", "other.exr"];
+        folder.run(&[&plain[..], &["--size", size, "--samples", samples]].concat())
+    };
+    other("16384x16384", "1").ends(1).says("16384 x 16384").says("2^25 pixels");
+    other("4x4", "5000").ends(0).says("5000 paths");
+    let grid = ["render", "plain.material.json", "--backend", "cpu", "--samples", "5000", "-o", "grid.png"];
+    folder.run(&grid).ends(2).says("more than 4096").says("--backend reference");
 }

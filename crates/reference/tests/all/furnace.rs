@@ -36,6 +36,18 @@ fn white_surfaces_give_all_back() {
         println!("metal {roughness} {compensation}: {mean:.5} +- {error:.5}");
         assert!((mean - 1.0).abs() < 4.0 * error + 1e-3, "{roughness} {compensation}: {mean} +- {error}");
     }
+    // A brushed metal, whose albedo is that of a round one of the same area nearly: each form of Smith's with its own.
+    for v in ["correlated", "separable"] {
+        let values = [
+            ("base_color", color([1.0; 3])),
+            ("metallic", number(1.0)),
+            ("perceptual_roughness", number(0.8)),
+            ("anisotropy", number(0.8)),
+        ];
+        let (mean, error) = mean(BuiltinMesh::Sphere, &values, &[("v", v), ("compensation", "turquin")], SMALL());
+        println!("brushed metal, {v}: {mean:.5} +- {error:.5}");
+        assert!(mean < 1.0 + 4.0 * error && mean > 0.96, "{v}: {mean} +- {error}");
+    }
     let values = [("base_color", color([1.0; 3])), ("specular", number(0.0))];
     let (diffuse, _) = mean(BuiltinMesh::Sphere, &values, &[], SMALL());
     assert!((diffuse - 1.0).abs() < 1e-9, "{diffuse}");

@@ -106,3 +106,28 @@ fn what_is_left_out_is_noted() {
     assert_eq!(notes(&[("transmission_weight", number(1.0)), ("anisotropy", number(0.5))]), "");
     assert!(notes(&[("height", number(0.1))]).contains("`height`"));
 }
+
+/// A material that is no number somewhere is told by name and share; a sound one is not.
+#[test]
+fn what_is_not_finite_is_told() {
+    let document = |body: &str| {
+        let source = format!(
+            r#"{{"halfvector": 1, "name": "Odd", "nodes": {{"surface": {{"node": "surface/surface"}}, "odd": {{"node": "custom/odd"}}}},
+              "links": [{{"from": "odd.out", "to": "surface.emission"}}], "functions": {{"odd": [
+                "/// Odd", "///", "/// Test.", "/// @node custom/odd", "/// - uv: where [context uv0]", "/// - return: light",
+                "fn odd(uv: vec2f) -> vec3f {{", "return vec3f({body});", "}}"]}}}}"#
+        );
+        halfvector_graph::file::from_json(&source).expect("a document")
+    };
+    for (text, is_odd) in [("sqrt(uv.x - 0.5)", true), ("sqrt(uv.x + 0.5)", false)] {
+        let mesh = halfvector_scene::MeshSource::Builtin(BuiltinMesh::Plane);
+        let scene = Scene::from_material(document(text), std::path::Path::new(""), &mesh).expect("a scene");
+        let options = RenderOptions { width: 16, height: 16, ..RenderOptions::default() };
+        let mut reference = Reference::new(&scene, Some(&white()), options).expect("a sound scene");
+        reference.add_samples(4, &|_| {}).expect("rendered");
+        let faults = reference.faults();
+        assert_eq!(!faults.is_empty(), is_odd, "{text}: {faults:?}");
+        assert!(faults.iter().all(|fault| fault.contains("`Odd`") && fault.contains(" % of the points")), "{faults:?}");
+        assert!(reference.picture().pixels.as_flattened().iter().all(|x| x.is_finite()));
+    }
+}
