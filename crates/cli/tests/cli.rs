@@ -246,6 +246,39 @@ fn check_tells_all_problems() {
     assert!(cut.json()["problems"].as_array().is_some_and(|list| list.len() > problems.len()));
 }
 
+/// Constants that compute no number are told at their node, like every other problem.
+#[test]
+fn a_constant_that_is_no_number_is_told_at_its_node() {
+    let folder = Folder::new();
+    folder.write(
+        "log.material.json",
+        r#"{"halfvector": 1, "name": "log", "nodes": {"surface": {"node": "surface/surface"},
+            "part": {"node": "math/multiply", "label": "Part", "values": {"a": 1e38, "b": 1e38}}},
+          "links": [{"from": "part.out", "to": "surface.metallic"}]}"#,
+    );
+    let text = folder.run(&["check", "log.material.json"]).ends(3).stdout;
+    assert_eq!(text.matches("error: ").count(), 1, "{text}");
+    assert!(text.starts_with("log.material.json: error: \u{201c}Part\u{201d} (part): "), "{text}");
+    let json = folder.run(&["check", "--format", "json", "log.material.json"]).ends(3).json();
+    assert!(json["problems"][0]["node"] == "part" && json["problems"][0]["node_label"] == "Part", "{json}");
+}
+
+/// A link to a node that is not there is no shader without what it was to feed.
+#[test]
+fn a_link_to_nothing_is_an_error() {
+    let folder = Folder::new();
+    folder.write(
+        "slip.material.json",
+        r#"{"halfvector": 1, "name": "slip", "nodes": {"surface": {"node": "surface/surface"},
+            "grain": {"node": "procedural/value_noise_2d"}},
+          "links": [{"from": "grain.out", "to": "surfcae.metallic"}]}"#,
+    );
+    let text = folder.run(&["check", "slip.material.json"]).ends(3).stdout;
+    assert!(text.contains("error: surfcae, metallic: a link from grain.out leads to `surfcae.metallic`"), "{text}");
+    folder.run(&["export", "slip.material.json", "--target", "wgsl", "-o", "x"]).ends(1).says("surfcae.metallic");
+    assert!(!folder.path("x").exists(), "nothing is written");
+}
+
 /// Names from documents reach the terminal as text, never as commands to it.
 #[test]
 fn a_terminal_is_sent_no_commands() {
@@ -542,6 +575,26 @@ fn the_cost_of_nodes_is_told() {
     let node = &cost["nodes"].as_array().expect("nodes")[0];
     assert!(node["node"] == "colors" || node["node"] == "tartan", "{node}");
     assert!(cost["fragment_total"].as_u64() > node["total"].as_u64(), "{cost}");
+    assert!(cost["per_turn"].is_boolean() && node["per_turn"].is_boolean(), "{cost}");
+
+    // Of many nodes the costliest are listed.
+    let sine = |i: usize| format!(r#""n{i}": {{"node": "math/sin"}}"#);
+    let link = |i: usize| format!(r#"{{"from": "n{i}.out", "to": "n{}.x"}}"#, i + 1);
+    folder.write(
+        "many.material.json",
+        &format!(
+            r#"{{"halfvector": 1, "name": "many", "nodes": {{"grain": {{"node": "procedural/value_noise_2d"}},
+                "surface": {{"node": "surface/surface"}}, {}}},
+              "links": [{}, {{"from": "grain.out", "to": "n0.x"}}, {{"from": "n29.out", "to": "surface.metallic"}}]}}"#,
+            (0..30).map(sine).collect::<Vec<_>>().join(","),
+            (0..29).map(link).collect::<Vec<_>>().join(",")
+        ),
+    );
+    let text = folder.run(&["check", "--cost", "many.material.json"]).ends(0).stdout;
+    assert_eq!(text.lines().count(), 22, "{text}");
+    assert!(text.contains("(grain): ") && text.contains("cost: 11 nodes more: 11 instructions together"), "{text}");
+    let json = folder.run(&["check", "--cost", "--format", "json", "many.material.json"]).ends(0).json();
+    assert_eq!(json["cost"][0]["nodes"].as_array().map(Vec::len), Some(31));
 }
 
 #[test]

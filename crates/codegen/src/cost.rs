@@ -1,19 +1,22 @@
 //! What a shader costs, estimated from naga's view of it: instructions by class, in total and for each node.
 //!
-//! An operation on a scalar or vector is one instruction, a call costs what the called function does, a loop's body counts once and
-//! both sides of a branch count. A driver merges, spreads and drops; the numbers are for comparing materials and nodes with
-//! each other, not for telling time.
+//! An operation on a scalar or vector is one instruction, a call costs what the called function does, a loop's body counts as often as
+//! it turns, or once where the text does not say how often, and both sides of a branch count. A driver merges, spreads and drops; the
+//! numbers are for comparing materials and nodes with each other, not for telling time.
+
+mod turns;
 
 use std::collections::BTreeMap;
 
 use halfvector_graph::document::NodeId;
-use naga::{Block, Expression, Function, MathFunction, Span, Statement};
+use naga::{Block, Expression, Function, Handle, MathFunction, Module, Span, Statement};
 use serde::Serialize;
 
 use crate::Shader;
 use crate::emit::text::Origin;
 use crate::reflection::Resource;
 use crate::validate::{ValidationError, validate};
+use turns::Counters;
 
 /// Instructions by class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -35,6 +38,8 @@ pub struct NodeCost {
     pub node: NodeId,
     /// In both stages.
     pub instructions: Instructions,
+    /// Whether a loop of it turns as often as a value says that the text does not hold: its body counts once.
+    pub per_turn: bool,
 }
 
 /// What a shader costs.
@@ -48,6 +53,8 @@ pub struct Cost {
     pub uniform_bytes: u32,
     /// The nodes that are in the shader, in order of id.
     pub nodes: Vec<NodeCost>,
+    /// Whether the body of some loop, of a node or not, counts once because the text does not say how often it turns.
+    pub per_turn: bool,
 }
 
 impl Instructions {
@@ -63,6 +70,29 @@ impl Instructions {
         self.choices = self.choices.saturating_add(other.choices);
         self.samples = self.samples.saturating_add(other.samples);
     }
+
+    fn times(self, count: u32) -> Instructions {
+        Instructions {
+            arithmetic: self.arithmetic.saturating_mul(count),
+            transcendental: self.transcendental.saturating_mul(count),
+            choices: self.choices.saturating_mul(count),
+            samples: self.samples.saturating_mul(count),
+        }
+    }
+}
+
+/// What a part of a shader does.
+#[derive(Clone, Copy, Default)]
+struct Part {
+    instructions: Instructions,
+    per_turn: bool,
+}
+
+impl Part {
+    fn add(&mut self, other: Part) {
+        self.instructions.add(other.instructions);
+        self.per_turn |= other.per_turn;
+    }
 }
 
 /// Estimates what a whole shader costs.
@@ -72,29 +102,28 @@ impl Instructions {
 pub fn cost(shader: &Shader) -> Result<Cost, ValidationError> {
     let valid = validate(shader)?;
     let module = &valid.module;
-    // Callees come first in naga's arena, so one pass is enough.
-    let mut functions: Vec<Instructions> = Vec::with_capacity(module.functions.len());
-    for (_, function) in module.functions.iter() {
-        let mut total = Instructions::default();
-        each(function, &functions, |_, instructions| total.add(instructions));
-        functions.push(total);
-    }
+    let functions = of_functions(module);
     let mut cost = Cost::default();
-    let mut nodes: BTreeMap<NodeId, Instructions> = BTreeMap::new();
+    let mut nodes: BTreeMap<NodeId, Part> = BTreeMap::new();
     for entry in &module.entry_points {
-        let mut total = Instructions::default();
-        each(&entry.function, &functions, |span, instructions| {
-            total.add(instructions);
+        let mut total = Part::default();
+        each(module, &entry.function, &functions, |span, part| {
+            total.add(part);
             if let Some(Origin::Node(id)) = span.to_range().and_then(|range| origin(shader, range.start)) {
-                nodes.entry(id.clone()).or_default().add(instructions);
+                match nodes.get_mut(id) {
+                    Some(node) => node.add(part),
+                    None => drop(nodes.insert(id.clone(), part)),
+                }
             }
         });
+        cost.per_turn |= total.per_turn;
         match entry.stage {
-            naga::ShaderStage::Vertex => cost.vertex = total,
-            _ => cost.fragment = total,
+            naga::ShaderStage::Vertex => cost.vertex = total.instructions,
+            _ => cost.fragment = total.instructions,
         }
     }
-    cost.nodes = nodes.into_iter().map(|(node, instructions)| NodeCost { node, instructions }).collect();
+    let of_node = |(node, Part { instructions, per_turn })| NodeCost { node, instructions, per_turn };
+    cost.nodes = nodes.into_iter().map(of_node).collect();
     cost.uniform_bytes = shader
         .reflection
         .bindings
@@ -113,31 +142,56 @@ fn origin(shader: &Shader, at: usize) -> Option<&Origin> {
     shader.segments.get(number).map(|segment| &segment.origin)
 }
 
-/// Tells every instruction of a function with its place; a call with all that it does.
-fn each(function: &Function, functions: &[Instructions], mut tell: impl FnMut(Span, Instructions)) {
-    for (handle, expression) in function.expressions.iter() {
-        tell(function.expressions.get_span(handle), of_expression(expression));
+/// What each function of a module does, by its place there.
+fn of_functions(module: &Module) -> Vec<Part> {
+    // Callees come first in naga's arena, so one pass is enough.
+    let mut functions: Vec<Part> = Vec::with_capacity(module.functions.len());
+    for (_, function) in module.functions.iter() {
+        let mut total = Part::default();
+        each(module, function, &functions, |_, part| total.add(part));
+        functions.push(total);
     }
-    let mut blocks: Vec<&Block> = vec![&function.body];
-    while let Some(block) = blocks.pop() {
+    functions
+}
+
+/// What a function of a module does.
+pub(crate) fn of_function(module: &Module, function: Handle<Function>) -> Instructions {
+    of_functions(module).get(function.index()).copied().unwrap_or_default().instructions
+}
+
+/// Tells every instruction of a function with its place, in a loop as often as it turns; a call with all that it does.
+fn each(module: &Module, function: &Function, functions: &[Part], mut tell: impl FnMut(Span, Part)) {
+    let counters = Counters::of(module, function);
+    let mut blocks: Vec<(&Block, u32, bool)> = vec![(&function.body, 1, false)];
+    while let Some((block, times, per_turn)) = blocks.pop() {
+        let part = |instructions: Instructions| Part { instructions: instructions.times(times), per_turn };
+        let choice = Instructions { choices: 1, ..Instructions::default() };
         for (statement, span) in block.span_iter() {
-            let choice = Instructions { choices: 1, ..Instructions::default() };
             match statement {
-                Statement::Call { function, .. } => {
-                    tell(*span, functions.get(function.index()).copied().unwrap_or_default());
+                Statement::Emit(range) => {
+                    for handle in range.clone() {
+                        let one = of_expression(&function.expressions[handle]);
+                        tell(function.expressions.get_span(handle), part(one));
+                    }
                 }
-                Statement::Block(block) => blocks.push(block),
+                Statement::Call { function, .. } => {
+                    let called = functions.get(function.index()).copied().unwrap_or_default();
+                    tell(*span, Part { per_turn: per_turn || called.per_turn, ..part(called.instructions) });
+                }
+                Statement::Block(block) => blocks.push((block, times, per_turn)),
                 Statement::If { accept, reject, .. } => {
-                    tell(*span, choice);
-                    blocks.extend([accept, reject]);
+                    tell(*span, part(choice));
+                    blocks.extend([accept, reject].map(|block| (block, times, per_turn)));
                 }
                 Statement::Switch { cases, .. } => {
-                    tell(*span, choice);
-                    blocks.extend(cases.iter().map(|case| &case.body));
+                    tell(*span, part(choice));
+                    blocks.extend(cases.iter().map(|case| (&case.body, times, per_turn)));
                 }
                 Statement::Loop { body, continuing, .. } => {
-                    tell(*span, choice);
-                    blocks.extend([body, continuing]);
+                    let turns = counters.turns(body, continuing);
+                    let inside = (times.saturating_mul(turns.unwrap_or(1)), per_turn || turns.is_none());
+                    tell(*span, Part { instructions: choice.times(inside.0), per_turn: inside.1 });
+                    blocks.extend([body, continuing].map(|block| (block, inside.0, inside.1)));
                 }
                 _ => {}
             }

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use halfvector_graph::document::{NodeId, SocketRef};
 use halfvector_graph::node_def::NodeDef;
-use halfvector_graph::value::{ImageRef, Type};
+use halfvector_graph::value::{ImageRef, Type, Value};
 
 /// An index into [`Arena::exprs`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -190,6 +190,8 @@ pub(crate) struct NodeInfo<'a> {
     pub(crate) def: &'a NodeDef,
     /// What `T` is, when the node is generic.
     pub(crate) generic: Option<Type>,
+    /// Values of unconnected inputs.
+    pub(crate) values: &'a BTreeMap<String, Value>,
 }
 
 /// A material between document and WGSL.

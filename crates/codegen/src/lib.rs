@@ -7,6 +7,7 @@ mod cost;
 mod emit;
 mod error;
 mod explain;
+mod fate;
 mod ir;
 mod layout;
 mod line_map;
@@ -32,6 +33,8 @@ pub use passes::lower::input_value;
 pub use pipeline::{material, shader};
 pub use validate::{Place, Valid, ValidationError, place_of, validate};
 
+use halfvector_graph::document::NodeId;
+
 use passes::plan::Keep;
 use reflection::Reflection;
 
@@ -55,6 +58,8 @@ pub struct Shader {
     pub segments: Vec<Segment>,
     /// What was left out, and why.
     pub dropped: Vec<Dropped>,
+    /// The nodes that reach the surface and are not in it, in order of id; empty where that was not asked for ([`explained()`] does).
+    pub dropped_nodes: Vec<DroppedNode>,
     /// The terms of shading that this shader has a part of, each with its method, in the order of the list of terms.
     pub methods: Vec<(&'static str, &'static str)>,
 }
@@ -79,4 +84,17 @@ pub struct Dropped {
     pub instructions: Option<u32>,
     /// What has to be different for it to be there.
     pub(crate) kept_by: Keep,
+}
+
+/// A node that reaches the surface and that a shader does without.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DroppedNode {
+    /// The node; in a group its path.
+    pub node: NodeId,
+    /// Its label; in a group after the group's.
+    pub label: String,
+    /// Why it is not needed here.
+    pub why: String,
+    /// Instructions of its function, estimated as [`cost()`] does; none where naga cannot read the function by itself.
+    pub instructions: Option<u32>,
 }

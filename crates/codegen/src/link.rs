@@ -11,6 +11,7 @@ use halfvector_graph::method::Methods;
 use halfvector_graph::value::Type;
 use halfvector_shaders::{Item, ItemKind, SliceError, TokenKind, emit, generic_types, slice, tokens};
 
+use crate::cost::{Instructions, of_function};
 use crate::passes::eval::{self, Shape};
 
 /// Functions of the vertex stage that entry points call; the other files of `entry/` are whole shaders.
@@ -69,6 +70,8 @@ enum Piece {
 /// A function that naga has read, for folding.
 pub(crate) struct Compiled {
     callable: Option<eval::Callable>,
+    /// What it does, with what it calls.
+    pub(crate) cost: Instructions,
     pub(crate) shape: Shape,
     /// Member names of the returned struct; empty for a plain value.
     pub(crate) members: Vec<String>,
@@ -288,7 +291,7 @@ impl Index {
         }
         let module = naga::front::wgsl::parse_str(&source).ok()?;
         let name = self.name(instance);
-        let (_, body) = module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(&name))?;
+        let (handle, body) = module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(&name))?;
         let members = match body.result.as_ref().map(|r| &module.types[r.ty].inner) {
             Some(naga::TypeInner::Struct { members, .. }) => {
                 members.iter().map(|m| m.name.clone().unwrap_or_default()).collect()
@@ -296,7 +299,7 @@ impl Index {
             _ => Vec::new(),
         };
         let callable = eval::Callable::new(&module, body);
-        Some(Compiled { shape: eval::shape(body), members, callable })
+        Some(Compiled { shape: eval::shape(body), members, callable, cost: of_function(&module, handle) })
     }
 
     /// Recognises `fn f(a: A, b: B) -> C { return <expression>; }` whose expression names nothing of the library.

@@ -1,21 +1,25 @@
 //! From document to shader: the passes in their order, each one step of what follows.
 
+use std::borrow::Cow;
+
 use halfvector_graph::check::{Problem, Severity, check, node_label};
 use halfvector_graph::document::Document;
-use halfvector_graph::flatten::flatten;
+use halfvector_graph::flatten::{Flat, flatten};
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::Needs;
 
 use crate::emit::expression::Names;
+use crate::fate::{self, Fates};
 use crate::ir::Program;
 use crate::link::Index;
 use crate::names::Namer;
+use crate::passes::drop_unused::{drop_dead, drop_unused};
 use crate::passes::lower::{lower, lower_material};
-use crate::passes::plan::{Constants, Keep};
+use crate::passes::plan::{Keep, Plan, Wanted};
 use crate::passes::specialise::{constants, specialise};
 use crate::passes::types::Types;
-use crate::passes::{drop_unused::drop_unused, fold, share::share, types};
+use crate::passes::{fold, share::share, types};
 use crate::{CodegenError, Fold, Remark, Shader, emit};
 
 /// The shader of a material for what a scene needs.
@@ -27,74 +31,99 @@ use crate::{CodegenError, Fold, Remark, Shader, emit};
 /// The document's problems that keep it from being a shader, all at once; constants that fold to no finite number are
 /// among them.
 pub fn shader(document: &Document, library: &Library, needs: &Needs, fold: Fold) -> Result<Shader, CodegenError> {
-    Making { document, library, needs, fold }.make(Extra::default())
+    let sound = Sound::new(document, library)?;
+    let material = sound.material()?;
+    material.draft(needs, fold, None)?.shader(&material, needs, &[])
 }
 
-/// What a shader is made of.
-#[derive(Clone, Copy)]
-pub(crate) struct Making<'m> {
-    pub(crate) document: &'m Document,
-    pub(crate) library: &'m Library,
-    pub(crate) needs: &'m Needs,
-    pub(crate) fold: Fold,
+/// A document without errors and without groups: what is the same for all of its shaders begins here.
+pub(crate) struct Sound<'d> {
+    flat: Flat<'d>,
+    index: Cow<'static, Index>,
 }
 
-/// What is asked of it beside.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Extra<'m> {
-    /// What is not left out.
-    pub(crate) keep: Option<Keep>,
-    /// What the header says beside.
-    pub(crate) remarks: &'m [Remark],
-    /// What leaving something out saves, in the order of what is left out.
-    pub(crate) saved: &'m [Option<u32>],
-}
+impl<'d> Sound<'d> {
+    pub(crate) fn new(document: &'d Document, library: &Library) -> Result<Sound<'d>, CodegenError> {
+        // check
+        no_errors(check(document, library))?;
+        // take groups apart
+        let flat = flatten(document, library)?;
+        let index = Index::of(&flat.document);
+        Ok(Sound { flat, index })
+    }
 
-impl Making<'_> {
-    /// Makes the shader.
-    pub(crate) fn make(self, extra: Extra<'_>) -> Result<Shader, CodegenError> {
-        let Making { document, library, needs, fold } = self;
-        whole(document, library, needs, fold, extra)
+    pub(crate) fn material(&self) -> Result<Material<'_>, CodegenError> {
+        let (document, library) = (self.flat.document.as_ref(), &self.flat.library);
+        // resolve types of what reaches the surface; from here on there is nothing else
+        Ok(Material { document, library, index: &self.index, types: types::resolve(document, library)? })
     }
 }
 
-fn whole(
-    document: &Document,
-    library: &Library,
-    needs: &Needs,
-    fold: Fold,
-    extra: Extra<'_>,
-) -> Result<Shader, CodegenError> {
-    let open = extra.keep.and_then(Keep::socket);
-    // check
-    no_errors(check(document, library))?;
-    // take groups apart
-    let flat = flatten(document, library)?;
-    let (document, library) = (flat.document.as_ref(), &flat.library);
-    let index = &*Index::of(document);
-    // resolve types
-    let types = types::resolve(document, library)?;
-    // lower, and what is constant whatever is folded
-    let (exported, constants) = export(document, library, &types, index, &needs.methods, open)?;
-    let mut program = match fold {
-        Fold::Export => exported,
-        Fold::Live => lower(document, &types, index, &needs.methods, Fold::Live, open)?,
-    };
-    // fold constants of the nodes
-    fold::fold(&mut program, index);
-    // specialise to needs
-    let mut plan = specialise(&mut program, document, needs, fold, constants, extra.keep);
-    plan.dropped.iter_mut().zip(extra.saved).for_each(|(dropped, saved)| dropped.instructions = *saved);
-    // fold constants of the shading
-    fold::fold(&mut program, index);
-    // drop unused
-    drop_unused(&mut program);
-    // share common subexpressions
-    share(&mut program);
-    // name
-    let names = Names::of(&program, &parameter_names(document), &mut Namer::new(index), index);
-    // link and emit
-    emit::shader(&program, plan, document, needs, extra.remarks, index, &names)
+/// The nodes of a document that reach the surface, with their types.
+pub(crate) struct Material<'s> {
+    document: &'s Document,
+    library: &'s Library,
+    pub(crate) index: &'s Index,
+    pub(crate) types: Types<'s>,
+}
+
+/// A shader before its text is written.
+pub(crate) struct Draft<'s> {
+    program: Program<'s>,
+    pub(crate) plan: Plan,
+    names: Names,
+    /// What became of the nodes.
+    pub(crate) fates: Fates,
+}
+
+impl<'s> Material<'s> {
+    /// All passes up to the text. `keep` is not left out.
+    pub(crate) fn draft(&self, needs: &Needs, fold: Fold, keep: Option<Keep>) -> Result<Draft<'s>, CodegenError> {
+        let Material { document, library, index, types } = self;
+        let lowered = |fold| lower(types, index, &needs.methods, fold, keep.and_then(Keep::socket));
+        // lower and fold, and what is constant whatever is folded: a live shader asks it too, for what is left out must not depend
+        // on how numbers are kept, or the two would draw different pictures
+        let mut program = lowered(Fold::Export)?;
+        let mut fates = Fates { lowered: fate::calls(&program), ..Fates::default() };
+        let faults = fold::fold(&mut program, index);
+        no_faults(document, library, &program, &faults)?;
+        fates.folded = fate::calls(&program);
+        fates.constant = fate::constants(&program);
+        let constants = constants(&program, index);
+        if fold == Fold::Live {
+            program = lowered(Fold::Live)?;
+            fold::fold(&mut program, index);
+        }
+        // drop what folding left behind
+        drop_dead(&mut program.fragment);
+        drop_dead(&mut program.vertex);
+        // specialise to needs
+        let plan = specialise(&mut program, Wanted { surface: document.surface, needs, fold, constants, keep });
+        // fold constants of the shading
+        fold::fold(&mut program, index);
+        // drop unused
+        drop_unused(&mut program);
+        fates.live = fate::calls(&program);
+        // share common subexpressions
+        share(&mut program);
+        fates.kept = fate::calls(&program);
+        // name
+        let names = Names::of(&program, &parameter_names(document), &mut Namer::new(index), index);
+        Ok(Draft { program, plan, names, fates })
+    }
+}
+
+impl Draft<'_> {
+    /// The text: links and emits. `remarks` stand in the header.
+    pub(crate) fn shader(
+        &self,
+        material: &Material<'_>,
+        needs: &Needs,
+        remarks: &[Remark],
+    ) -> Result<Shader, CodegenError> {
+        let Draft { program, plan, names, .. } = self;
+        emit::shader(program, plan.clone(), material.document, needs, remarks, material.index, names)
+    }
 }
 
 /// The material alone: `fn material(context: Context) -> Surface` and the library behind it, without lights, stages or
@@ -103,16 +132,10 @@ fn whole(
 /// # Errors
 /// As for [`shader()`].
 pub fn material(document: &Document, library: &Library, methods: &Methods) -> Result<Shader, CodegenError> {
-    // check
-    no_errors(check(document, library))?;
-    // take groups apart
-    let flat = flatten(document, library)?;
-    let (document, library) = (flat.document.as_ref(), &flat.library);
-    let index = &*Index::of(document);
-    // resolve types
-    let types = types::resolve(document, library)?;
+    let sound = Sound::new(document, library)?;
+    let Material { document, library, index, types } = sound.material()?;
     // lower
-    let mut program = lower_material(document, &types, methods)?;
+    let mut program = lower_material(&types, methods)?;
     // fold constants
     let faults = fold::fold(&mut program, index);
     no_faults(document, library, &program, &faults)?;
@@ -124,23 +147,6 @@ pub fn material(document: &Document, library: &Library, methods: &Methods) -> Re
     let names = Names::of(&program, &parameter_names(document), &mut Namer::new(index), index);
     // link and emit
     emit::material(&program, document, methods, index, &names)
-}
-
-/// The program with all numbers folded, and what is known of it. A live shader asks it too: what is left out must not
-/// depend on how numbers are kept, or the two would draw different pictures.
-fn export<'a>(
-    document: &'a Document,
-    library: &Library,
-    types: &Types<'a>,
-    index: &Index,
-    methods: &Methods,
-    open: Option<&'static str>,
-) -> Result<(Program<'a>, Constants), CodegenError> {
-    let mut program = lower(document, types, index, methods, Fold::Export, open)?;
-    let faults = fold::fold(&mut program, index);
-    no_faults(document, library, &program, &faults)?;
-    let constants = constants(&program, index);
-    Ok((program, constants))
 }
 
 fn no_errors(problems: Vec<Problem>) -> Result<(), CodegenError> {

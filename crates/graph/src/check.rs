@@ -1,7 +1,7 @@
 //! What is wrong with a document: everything at once, in its user's words, each problem with node, socket, reason and remedy.
 //!
 //! An error keeps a shader from being made. A problem of a node that does not reach the surface is a warning, since no shader
-//! needs that node. It opens no files: whether a picture exists is found when it is loaded.
+//! needs that node; but a link to a node that is not there is an error, since what it was to feed may be what a shader needs. It opens no files: whether a picture exists is found when it is loaded.
 
 mod findings;
 mod groups;
@@ -13,7 +13,7 @@ mod stages;
 pub(crate) mod words;
 
 use std::borrow::Cow;
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt;
 
 use serde::Serialize;
@@ -23,7 +23,7 @@ use crate::document::{AlphaMode, Document, Graph, Link, NodeId, SURFACE_MIX, fun
 use crate::flatten::{self, Flat, FlattenError, find, flatten};
 use crate::group::{Extents, extents};
 use crate::library::Library;
-use crate::library::custom::read_function;
+use crate::library::custom::{MAX_WORK, read_function};
 use crate::node_def::NodeDef;
 use crate::resolve::{Types, resolve_in};
 use crate::value::SocketType;
@@ -159,15 +159,25 @@ pub fn node_label(graph: &Graph, library: &Library, id: &str) -> String {
 
 /// The ids of the document's surface nodes: those that give a surface to no other one that mixes it.
 pub(crate) fn surface_nodes<'d>(document: &'d Document, library: &Library) -> Vec<&'d str> {
-    let def = |id: &str| library.get(&document.graph.nodes.get(id)?.node);
+    // A document has many nodes of few definitions.
+    let mut kinds: HashMap<&str, Option<&NodeDef>> = HashMap::new();
+    let mut surfaces: BTreeMap<&str, &NodeDef> = BTreeMap::new();
+    for (id, node) in &document.graph.nodes {
+        let def = kinds.entry(&node.node).or_insert_with(|| library.get(&node.node).filter(|def| is_of_surfaces(def)));
+        surfaces.extend(def.map(|def| (id.as_str(), def)));
+    }
     let takes = |link: &&Link| {
-        def(&link.to.node).is_some_and(|def| {
-            def.inputs.iter().any(|input| input.ty == SocketType::Surface && input.name == link.to.socket)
-        })
+        let inputs = surfaces.get(link.to.node.as_str()).map_or(&[][..], |def| &def.inputs);
+        inputs.iter().any(|input| input.ty == SocketType::Surface && input.name == link.to.socket)
     };
     let mixed: HashSet<&str> = document.graph.links.iter().filter(takes).map(|link| link.from.node.as_str()).collect();
-    let ids = document.graph.nodes.keys().map(String::as_str);
-    ids.filter(|id| !mixed.contains(id) && def(id).is_some_and(gives_surface)).collect()
+    let last = surfaces.into_iter().filter(|(id, def)| !mixed.contains(id) && gives_surface(def));
+    last.map(|(id, _)| id).collect()
+}
+
+/// Whether a node takes or gives surfaces.
+fn is_of_surfaces(def: &NodeDef) -> bool {
+    gives_surface(def) || def.inputs.iter().any(|input| input.ty == SocketType::Surface)
 }
 
 /// The ids of the surfaces that the document's surface is mixed of: the surface node itself where nothing is mixed. Sorted;
@@ -188,6 +198,15 @@ fn gives_surface(def: &NodeDef) -> bool {
 fn is_unmixed(graph: &Graph, library: &Library, id: &str) -> bool {
     let def = graph.nodes.get(id).and_then(|node| library.get(&node.node));
     def.is_some_and(|def| gives_surface(def) && def.inputs.iter().all(|input| input.ty != SocketType::Surface))
+}
+
+/// A message that is made only when it is told: a hostile document has many problems of which it is not.
+struct Told<F>(F);
+
+impl<F: FnOnce() -> String> From<Told<F>> for String {
+    fn from(told: Told<F>) -> String {
+        (told.0)()
+    }
 }
 
 struct Checker<'a> {
@@ -354,6 +373,15 @@ impl<'a> Checker<'a> {
             let message = format!(
                 "{mixtures} mixtures reach the surface, each of all that a surface has; no shader has more than {MAX_MIXTURES}: mix colours \
                  and numbers instead, or bake parts into pictures"
+            );
+            self.of_document(Severity::Error, message);
+        }
+        let each = live.iter().map(|id| extents.work(self.graph, id));
+        let work = each.fold(0u64, u64::saturating_add);
+        if work > MAX_WORK {
+            let message = format!(
+                "the document's own functions take {work} turns of loops and calls for each pixel, in all nodes that reach the surface \
+                 together; {MAX_WORK} are the most: use fewer of those nodes, or let their loops end sooner"
             );
             self.of_document(Severity::Error, message);
         }

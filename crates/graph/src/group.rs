@@ -3,7 +3,8 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use crate::document::{Document, GROUP_INPUT, GROUP_OUTPUT, Graph, Group, group_of};
+use crate::document::{Document, GROUP_INPUT, GROUP_OUTPUT, Graph, Group, function_of, group_of};
+use crate::library::custom::read_function;
 use crate::wiring::Wiring;
 
 /// Deepest nesting of groups.
@@ -26,6 +27,9 @@ pub struct Extent {
     pub nodes: usize,
     /// How many groups lie in each other: 1 when it holds none.
     pub depth: usize,
+    /// Turns of loops and calls that the document's own functions take in one use of it, as
+    /// [`CustomFunction::work`](crate::library::custom::CustomFunction::work) counts them. Saturates.
+    pub work: u64,
 }
 
 /// The extents of the groups of a document by id, and the groups that hold themselves.
@@ -35,6 +39,17 @@ pub struct Extents {
     pub groups: BTreeMap<String, Extent>,
     /// Rings of groups that hold themselves; of very many the first.
     pub rings: Vec<Recursion>,
+    /// The work of the document's own functions that are sound, by id.
+    pub functions: BTreeMap<String, u64>,
+}
+
+impl Extents {
+    /// The work of a node that is one of the document's own functions, or of a group; 0 for others.
+    pub(crate) fn work(&self, graph: &Graph, node: &str) -> u64 {
+        let Some(kind) = graph.nodes.get(node).map(|node| node.node.as_str()) else { return 0 };
+        let own = function_of(kind).and_then(|id| self.functions.get(id)).copied();
+        own.or_else(|| Some(self.groups.get(group_of(kind)?)?.work)).unwrap_or(0)
+    }
 }
 
 /// The id of the node that takes a group's outputs, if it has one: the first in order of id.
@@ -63,7 +78,9 @@ pub fn live_nodes(graph: &Graph, roots: &[&str]) -> Vec<String> {
 
 /// Measures the groups of a document. Iterative, and linear in the document, however often a group is used.
 pub fn extents(document: &Document) -> Extents {
-    let mut extents = Extents::default();
+    let sound = |(id, text): (&String, &String)| Some((id.clone(), read_function(id, text).ok()?.work));
+    let functions = document.functions.iter().filter_map(sound).collect();
+    let mut extents = Extents { functions, ..Extents::default() };
     let live: BTreeMap<&str, Vec<String>> = document
         .groups
         .iter()
@@ -107,7 +124,10 @@ pub fn extents(document: &Document) -> Extents {
                     let more = parts.iter().fold(0usize, |sum, part| sum.saturating_add(part.nodes - 1));
                     let depth = 1 + parts.iter().map(|part| part.depth).max().unwrap_or(0);
                     let nodes = more.saturating_add(1 + live[id].len());
-                    extents.groups.insert(id.into(), Extent { live: live[id].clone(), nodes, depth });
+                    let graph = &document.groups[id].graph;
+                    let each = live[id].iter().map(|node| extents.work(graph, node));
+                    let work = each.fold(0u64, u64::saturating_add);
+                    extents.groups.insert(id.into(), Extent { live: live[id].clone(), nodes, depth, work });
                 }
                 None => {
                     unsound.insert(id);

@@ -60,9 +60,17 @@ pub fn resolve_types<'a>(graph: &'a Graph, library: &'a Library) -> Types<'a> {
 
 /// [`resolve_types`] for a caller that has the wiring already.
 pub fn resolve_in<'a>(graph: &'a Graph, library: &'a Library, wiring: &Wiring<'a>) -> Types<'a> {
-    let mut types = Types { nodes: HashMap::with_capacity(graph.nodes.len()) };
-    for id in wiring.order_of_all() {
-        let Some(def) = graph.nodes.get(id).and_then(|node| library.get(&node.node)) else { continue };
+    resolve_some(graph, library, wiring, &wiring.order_of_all())
+}
+
+/// [`resolve_types`] of some nodes, each of which comes after all that feed it.
+pub fn resolve_some<'a>(graph: &'a Graph, library: &'a Library, wiring: &Wiring<'a>, order: &[&'a str]) -> Types<'a> {
+    let mut types = Types { nodes: HashMap::with_capacity(order.len()) };
+    // A document has many nodes of few definitions.
+    let mut kinds: HashMap<&str, Option<&NodeDef>> = HashMap::new();
+    for id in order.iter().copied() {
+        let Some(node) = graph.nodes.get(id) else { continue };
+        let Some(def) = *kinds.entry(&node.node).or_insert_with(|| library.get(&node.node)) else { continue };
         let generic = (!def.generic.is_empty()).then(|| {
             let incoming: Vec<Type> = def
                 .inputs

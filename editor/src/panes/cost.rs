@@ -94,7 +94,7 @@ impl Cost {
                 if let Some(Ok(counted)) = &self.counted {
                     ui.label(total(counted)).on_hover_text(
                         "Estimated for the exported shader under the viewport's lights: an operation on a scalar or vector is one \
-                         instruction, a loop counts once, both sides of a branch count. A driver may need fewer.",
+                         instruction, a loop that ends by a value counts once, both sides of a branch count. A driver may need fewer.",
                     );
                 }
             });

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use halfvector_codegen::{Cost, Fold, Instructions};
+use halfvector_codegen::{CodegenError, Cost, Fold, Instructions, NodeCost, Shader};
 use halfvector_graph::check::{Problem, Severity, node_label};
 use halfvector_graph::document::Document;
 use halfvector_graph::flatten::flatten;
@@ -38,7 +38,7 @@ pub(crate) struct CheckArgs {
     #[arg(long, requires = "stability")]
     f16: bool,
     /// Also estimates what each node and the whole shader cost under one directional light: instructions by class, reads of
-    /// textures, bytes of uniforms
+    /// textures, bytes of uniforms. Of many nodes the 20 costliest are listed; --format json has all
     #[arg(long)]
     cost: bool,
     /// How problems are written
@@ -72,9 +72,13 @@ struct Judged {
 /// What --cost found in a file.
 struct Costed {
     file: PathBuf,
-    document: Document,
     cost: Cost,
+    /// The labels of the cost's nodes, in its order.
+    labels: Vec<String>,
 }
+
+/// Most nodes whose cost is listed as text.
+const MOST_COSTED: usize = 20;
 
 /// Runs the command.
 pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
@@ -97,9 +101,10 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
                     if args.cost && sound {
                         match estimate(&material.document) {
                             Ok(cost) => {
-                                costed.push(Costed { file: path.clone(), document: material.document.clone(), cost });
+                                let labels = labels(&material.document, &cost.nodes);
+                                costed.push(Costed { file: path.clone(), cost, labels });
                             }
-                            Err(message) => problems.push(of_document(message)),
+                            Err(more) => problems.extend(more),
                         }
                     }
                     found.extend(problems.into_iter().map(|problem| Found { file: path.clone(), problem }));
@@ -253,14 +258,14 @@ fn problems(material: &SceneMaterial) -> Vec<Problem> {
     for text in images.notes() {
         note(format_args!("note: {text}"));
     }
-    if let Err(message) = shader(document) {
-        problems.push(of_document(message));
+    if let Err(more) = shader(document) {
+        problems.extend(more);
     }
     problems
 }
 
 /// What a material costs under one directional light.
-fn estimate(document: &Document) -> Result<Cost, String> {
+fn estimate(document: &Document) -> Result<Cost, Vec<Problem>> {
     let needs = Needs {
         directional_lights: 1,
         point_lights: 0,
@@ -269,14 +274,12 @@ fn estimate(document: &Document) -> Result<Cost, String> {
         output: ShaderOutput::Radiance,
         methods: Methods::default(),
     };
-    let shader = halfvector_codegen::shader(document, Library::standard(), &needs, Fold::Export)
-        .map_err(|error| error.to_string())?;
-    halfvector_codegen::cost(&shader).map_err(|error| error.to_string())
+    halfvector_codegen::cost(&made(document, &needs)?).map_err(|error| vec![of_document(error.to_string())])
 }
 
-/// The total and one line for each node, the dearest first.
+/// The total and one line for each of the dearest nodes, the dearest first.
 fn cost_lines(costed: &Costed) -> Vec<String> {
-    let Costed { file, document, cost } = costed;
+    let Costed { file, cost, labels } = costed;
     let classes = |i: Instructions| {
         format!(
             "{} instructions ({} arithmetic, {} transcendental, {} choices, {} texture reads)",
@@ -287,27 +290,37 @@ fn cost_lines(costed: &Costed) -> Vec<String> {
             i.samples
         )
     };
+    let per_turn = |is: bool| if is { "; loops that end by a value count once" } else { "" };
     let file = file.display();
     let mut lines = vec![format!(
-        "{file}: cost, estimated: each pixel {}, each vertex {}; {} bytes of uniforms",
+        "{file}: cost, estimated: each pixel {}, each vertex {}; {} bytes of uniforms{}",
         classes(cost.fragment),
         cost.vertex.total(),
-        cost.uniform_bytes
+        cost.uniform_bytes,
+        per_turn(cost.per_turn)
     )];
-    let mut nodes: Vec<_> = cost.nodes.iter().collect();
-    nodes.sort_by_key(|node| std::cmp::Reverse(node.instructions.total()));
-    lines.extend(nodes.into_iter().map(|node| {
-        let label = label(document, &node.node);
-        format!("{file}: cost: `{label}` ({}): {}", node.node, classes(node.instructions))
+    let mut nodes: Vec<_> = cost.nodes.iter().zip(labels).collect();
+    nodes.sort_by_key(|(node, _)| std::cmp::Reverse(node.instructions.total()));
+    let others = nodes.split_off(nodes.len().min(MOST_COSTED));
+    lines.extend(nodes.into_iter().map(|(node, label)| {
+        let NodeCost { node, instructions, per_turn: is_per_turn } = node;
+        format!("{file}: cost: `{label}` ({node}): {}{}", classes(*instructions), per_turn(*is_per_turn))
     }));
+    if !others.is_empty() {
+        let sum = others.iter().map(|(node, _)| u64::from(node.instructions.total())).sum::<u64>();
+        let (count, nodes) = (others.len(), if others.len() == 1 { "node" } else { "nodes" });
+        lines.push(format!(
+            "{file}: cost: {count} {nodes} more: {sum} instructions together; `--format json` lists all of them"
+        ));
+    }
     lines
 }
 
 fn cost_json(costed: &Costed) -> serde_json::Value {
-    let Costed { file, document, cost } = costed;
-    let nodes = cost.nodes.iter().map(|node| {
-        json!({ "node": node.node, "label": label(document, &node.node), "instructions": node.instructions,
-            "total": node.instructions.total() })
+    let Costed { file, cost, labels } = costed;
+    let nodes = cost.nodes.iter().zip(labels).map(|(node, label)| {
+        json!({ "node": node.node, "label": label, "instructions": node.instructions,
+            "total": node.instructions.total(), "per_turn": node.per_turn })
     });
     json!({
         "file": file.display().to_string(),
@@ -317,15 +330,16 @@ fn cost_json(costed: &Costed) -> serde_json::Value {
         "vertex": cost.vertex,
         "vertex_total": cost.vertex.total(),
         "uniform_bytes": cost.uniform_bytes,
+        "per_turn": cost.per_turn,
         "nodes": nodes.collect::<Vec<_>>(),
     })
 }
 
-/// The label of a node; in a group after the group's.
-fn label(document: &Document, path: &str) -> String {
+/// The labels of nodes; in a group after the group's.
+fn labels(document: &Document, nodes: &[NodeCost]) -> Vec<String> {
     match flatten(document, Library::standard()) {
-        Ok(flat) => node_label(&flat.document.graph, &flat.library, path),
-        Err(_) => path.to_owned(),
+        Ok(flat) => nodes.iter().map(|node| node_label(&flat.document.graph, &flat.library, &node.node)).collect(),
+        Err(_) => nodes.iter().map(|node| node.node.clone()).collect(),
     }
 }
 
@@ -334,7 +348,7 @@ fn of_document(message: String) -> Problem {
 }
 
 /// Makes and validates the shader for one light of each kind and an environment.
-fn shader(document: &Document) -> Result<(), String> {
+fn shader(document: &Document) -> Result<(), Vec<Problem>> {
     let needs = Needs {
         directional_lights: 1,
         point_lights: 1,
@@ -343,7 +357,14 @@ fn shader(document: &Document) -> Result<(), String> {
         output: ShaderOutput::Radiance,
         methods: Methods::default(),
     };
-    let shader = halfvector_codegen::shader(document, Library::standard(), &needs, Fold::Export)
-        .map_err(|error| error.to_string())?;
-    halfvector_codegen::validate(&shader).map(|_| ()).map_err(|error| error.to_string())
+    let shader = made(document, &needs)?;
+    halfvector_codegen::validate(&shader).map(|_| ()).map_err(|error| vec![of_document(error.to_string())])
+}
+
+/// The shader of a material, or what is wrong with it: each problem by itself.
+fn made(document: &Document, needs: &Needs) -> Result<Shader, Vec<Problem>> {
+    halfvector_codegen::shader(document, Library::standard(), needs, Fold::Export).map_err(|error| match error {
+        CodegenError::Problems(problems) => problems,
+        other => vec![of_document(other.to_string())],
+    })
 }

@@ -213,11 +213,21 @@ fn explanation(shader: &Shader, chosen: Option<&Chosen>) -> serde_json::Value {
         .iter()
         .map(|dropped| json!({ "what": dropped.what, "why": dropped.why, "instructions": dropped.instructions }))
         .collect();
+    let nodes: Vec<_> = shader
+        .dropped_nodes
+        .iter()
+        .map(|node| {
+            json!({ "node": node.node, "label": node.label, "why": node.why, "instructions": node.instructions })
+        })
+        .collect();
+    let saved: u64 = shader.dropped_nodes.iter().filter_map(|node| node.instructions).map(u64::from).sum();
     let methods: serde_json::Map<_, _> =
         shader.methods.iter().map(|(term, method)| ((*term).to_owned(), json!(method))).collect();
     let mut explanation = json!({
         "dropped": dropped,
-        "instructions_are": "what each thing alone would add to both stages, estimated on the text as `check --cost` does",
+        "instructions_are": "what each thing alone would add to both stages, and what each node's function does, estimated on the text as `check --cost` does",
+        "dropped_nodes": nodes,
+        "dropped_nodes_instructions": saved,
         "methods": methods,
     });
     if let Ok(cost) = halfvector_codegen::cost(shader) {

@@ -1,6 +1,6 @@
 //! `halfvector export --max-error` and `--explain`: need no GPU.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::{Folder, Run};
 
@@ -127,4 +127,20 @@ fn what_is_left_out_is_explained() {
         assert!(one["why"].is_string() && one["instructions"].as_u64() > Some(0), "{one}");
     }
     assert!(explained.get("budget").is_none());
+    assert_eq!((&explained["dropped_nodes"], &explained["dropped_nodes_instructions"]), (&json!([]), &json!(0)));
+
+    // All that stands behind a weight of 0.
+    folder.write(
+        "metal.material.json",
+        r#"{"halfvector": 1, "name": "off", "nodes": {"surface": {"node": "surface/surface"},
+            "grain": {"node": "procedural/value_noise_2d"}, "off": {"node": "math/multiply", "values": {"b": 0}}},
+          "links": [{"from": "grain.out", "to": "off.a"}, {"from": "off.out", "to": "surface.coat_weight"}]}"#,
+    );
+    let explained = export(&folder, "x", &["--explain"]).ends(0).json();
+    let nodes = explained["dropped_nodes"].as_array().expect("a list");
+    let names: Vec<_> = nodes.iter().map(|one| one["node"].as_str().unwrap_or("")).collect();
+    assert_eq!(names, ["grain", "off"], "{explained}");
+    assert!(nodes.iter().all(|one| one["why"].is_string() && one["label"].is_string()), "{explained}");
+    let sum: u64 = nodes.iter().filter_map(|one| one["instructions"].as_u64()).sum();
+    assert_eq!(explained["dropped_nodes_instructions"].as_u64(), Some(sum));
 }

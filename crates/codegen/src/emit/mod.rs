@@ -53,7 +53,8 @@ pub(crate) fn shader(
     text.append(&fragment);
     library(index, &[&vertex_uses, &fragment_uses], &needs.methods, &mut text);
     let methods = header::methods(&plan, needs);
-    Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: plan.dropped, methods })
+    let dropped_nodes = Vec::new();
+    Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: plan.dropped, dropped_nodes, methods })
 }
 
 /// The material alone: `material(context) -> Surface`.
@@ -87,7 +88,9 @@ pub(crate) fn material(
     text.line("");
     text.append(&body);
     library(index, &[&uses], methods, &mut text);
-    Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: Vec::new(), methods: Vec::new() })
+    let Text { text: wgsl, segments } = text;
+    let (dropped, dropped_nodes, methods) = (Vec::new(), Vec::new(), Vec::new());
+    Ok(Shader { wgsl, reflection, segments, dropped, dropped_nodes, methods })
 }
 
 /// The library's items that the stages reach, by file.

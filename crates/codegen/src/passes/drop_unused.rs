@@ -17,7 +17,8 @@ pub(crate) fn drop_unused(program: &mut Program<'_>) {
     }
 }
 
-fn drop_dead(stage: &mut Stage<'_>) {
+/// Drops what no root uses.
+pub(crate) fn drop_dead(stage: &mut Stage<'_>) {
     let live = stage.live();
     stage.rebuild(|arena, old, entry| live[old.index()].then(|| arena.push(entry)));
 }

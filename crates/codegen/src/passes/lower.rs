@@ -28,7 +28,6 @@ pub(crate) enum StageKind {
 
 /// Turns nodes into expressions. One per stage, and one more where a context means something else.
 pub(crate) struct Lowering<'a, 't> {
-    pub(crate) document: &'a Document,
     pub(crate) types: &'t Types<'a>,
     pub(crate) methods: &'t Methods,
     pub(crate) fold: Fold,
@@ -44,15 +43,9 @@ pub(crate) struct Lowering<'a, 't> {
 }
 
 impl<'a, 't> Lowering<'a, 't> {
-    pub(crate) fn new(
-        document: &'a Document,
-        types: &'t Types<'a>,
-        methods: &'t Methods,
-        fold: Fold,
-        stage: StageKind,
-    ) -> Self {
+    pub(crate) fn new(types: &'t Types<'a>, methods: &'t Methods, fold: Fold, stage: StageKind) -> Self {
         let (calls, weights) = (HashMap::new(), HashMap::new());
-        Lowering { document, types, methods, fold, stage, open: None, calls, weights, substitute: None }
+        Lowering { types, methods, fold, stage, open: None, calls, weights, substitute: None }
     }
 
     /// From now on `context` is `id`; nodes that were met before are computed again.
@@ -75,7 +68,8 @@ impl<'a, 't> Lowering<'a, 't> {
             return Ok(None);
         };
         // Depth first with an explicit stack: a node is made when all that it reads is made.
-        let first = self.types.sources[node][index].and_then(Source::computed);
+        let is_open = self.types.gives_surface(node) && self.open == Some(name);
+        let first = self.types.sources[node][index].and_then(Source::computed).filter(|_| !is_open);
         let mut stack: Vec<(usize, bool)> = first.into_iter().map(|node| (node, false)).collect();
         while let Some((at, ready)) = stack.pop() {
             if self.calls.contains_key(&at) {
@@ -199,15 +193,14 @@ impl<'a, 't> Lowering<'a, 't> {
             };
             return Ok(arena.convert(id, ty));
         }
-        let set = self.document.graph.nodes[info.id].values.get(&def.name);
+        let set = info.values.get(&def.name);
         let components = match (set.and_then(Value::components), &def.default) {
             (Some(components), _) => components.to_vec(),
             (None, Default::Value(value)) => value.components().unwrap_or(&[0.0]).to_vec(),
             (None, Default::Context(name)) => return Ok(self.context(arena, name, ty)),
             (None, Default::Image(_) | Default::Surface) => vec![0.0],
         };
-        let parameter =
-            self.document.parameters.iter().position(|p| p.socket.node == *info.id && p.socket.socket == def.name);
+        let parameter = self.types.parameters.get(&(info.id.as_str(), def.name.as_str())).copied();
         if self.fold == Fold::Export && parameter.is_none() && !is_open {
             return Ok(arena.literal(ty, &components));
         }
@@ -243,7 +236,7 @@ impl<'a, 't> Lowering<'a, 't> {
         def: &InputDef,
     ) -> Result<Id, CodegenError> {
         let info = &self.types.nodes[node];
-        let Some(Value::Image(image)) = self.document.graph.nodes[info.id].values.get(&def.name) else {
+        let Some(Value::Image(image)) = info.values.get(&def.name) else {
             return Err(CodegenError::NoImage {
                 node: info.id.clone(),
                 label: info.label.to_owned(),
@@ -258,7 +251,6 @@ impl<'a, 't> Lowering<'a, 't> {
 /// The whole program: the surface's sockets for the fragment stage and the height for the vertex stage. The vertex stage
 /// is folded at once, since a height that is the same everywhere needs no normals derived from it.
 pub(crate) fn lower<'a>(
-    document: &'a Document,
     types: &Types<'a>,
     index: &Index,
     methods: &Methods,
@@ -267,7 +259,7 @@ pub(crate) fn lower<'a>(
 ) -> Result<Program<'a>, CodegenError> {
     let mut table = Table::default();
     let mut vertex = Stage::default();
-    let lowered = |stage| Lowering { open, ..Lowering::new(document, types, methods, fold, stage) };
+    let lowered = |stage| Lowering { open, ..Lowering::new(types, methods, fold, stage) };
     let mut lowering = lowered(StageKind::Vertex);
     if let Some(height) = lowering.surface(&mut vertex.arena, &mut table, "height")? {
         vertex.roots.insert("height", height);
@@ -301,14 +293,10 @@ pub(crate) fn lower<'a>(
 }
 
 /// The program of the material alone: the call of the surface node, as the root `surface` of the fragment stage.
-pub(crate) fn lower_material<'a>(
-    document: &'a Document,
-    types: &Types<'a>,
-    methods: &Methods,
-) -> Result<Program<'a>, CodegenError> {
+pub(crate) fn lower_material<'a>(types: &Types<'a>, methods: &Methods) -> Result<Program<'a>, CodegenError> {
     let mut table = Table::default();
     let mut stage = Stage::default();
-    let mut lowering = Lowering::new(document, types, methods, Fold::Export, StageKind::Fragment);
+    let mut lowering = Lowering::new(types, methods, Fold::Export, StageKind::Fragment);
     // Making each input makes all nodes that the surface reads.
     for input in &types.nodes[types.surface].def.inputs {
         lowering.input(&mut stage.arena, &mut table, types.surface, &input.name)?;

@@ -5,7 +5,7 @@
 
 use std::collections::HashSet;
 
-use halfvector_graph::document::{AlphaMode, Document};
+use halfvector_graph::document::{AlphaMode, SurfaceSettings};
 use halfvector_graph::needs::Needs;
 
 use crate::ir::{Expr, Id, Program, Stage};
@@ -239,18 +239,24 @@ pub(super) fn metal(program: &Program<'_>, fold: Fold) -> Metal {
     }
 }
 
+/// What a plan is made for.
+#[derive(Clone, Copy)]
+pub(crate) struct Wanted<'w> {
+    /// What the document says to the rasteriser.
+    pub(crate) surface: SurfaceSettings,
+    pub(crate) needs: &'w Needs,
+    pub(crate) fold: Fold,
+    pub(crate) constants: Constants,
+    /// What is not left out.
+    pub(crate) keep: Option<Keep>,
+}
+
 /// Decides what is emitted.
-pub(super) fn decide(
-    program: &Program<'_>,
-    document: &Document,
-    needs: &Needs,
-    fold: Fold,
-    constants: Constants,
-    keep: Option<Keep>,
-) -> Plan {
+pub(super) fn decide(program: &Program<'_>, wanted: Wanted<'_>) -> Plan {
+    let Wanted { surface, needs, fold, constants, keep } = wanted;
     let known = Known { program, fold };
     let metal = metal(program, fold);
-    let double_sided = document.surface.double_sided;
+    let double_sided = surface.double_sided;
     let mut plan = Plan { double_sided, metal_in_part: metal == Metal::Mixed, ..Plan::default() };
 
     let counts = [needs.directional_lights, needs.point_lights, needs.spot_lights];
@@ -267,7 +273,7 @@ pub(super) fn decide(
 
     let film = !absent(&known, "thin_film_weight");
     plan.transmission = lit && metal != Metal::Whole && !absent(&known, "transmission_weight");
-    plan.thin_walled = plan.transmission && document.surface.thin_walled;
+    plan.thin_walled = plan.transmission && surface.thin_walled;
     plan.diffuse = lit && metal != Metal::Whole && !(plan.transmission && known.surface("transmission_weight", 1.0));
     if lit && !plan.diffuse {
         let (why, socket) = match metal {
@@ -318,7 +324,7 @@ pub(super) fn decide(
         plan.drop_it("occlusion", "it is 1", Keep::Socket("occlusion"));
     }
     decide_horizons(&mut plan, program, needs, keep == Some(Keep::Horizon));
-    decide_opacity(&mut plan, &known, document);
+    decide_opacity(&mut plan, &known, surface.alpha_mode, keep == Some(Keep::Opacity));
     decide_height(&mut plan, &known, needs, lit);
     let mirror = plan.environment.is_some() && (plan.specular || needs.methods.is("irradiance", "last_level"));
     let layered = plan.coat || plan.sheen || plan.transmission;
@@ -388,8 +394,8 @@ fn decide_horizons(plan: &mut Plan, program: &Program<'_>, needs: &Needs, keep: 
     }
 }
 
-fn decide_opacity(plan: &mut Plan, known: &Known<'_, '_>, document: &Document) {
-    plan.alpha_mode = document.surface.alpha_mode;
+fn decide_opacity(plan: &mut Plan, known: &Known<'_, '_>, alpha_mode: AlphaMode, keep: bool) {
+    plan.alpha_mode = if keep && alpha_mode == AlphaMode::Opaque { AlphaMode::Blend } else { alpha_mode };
     let why = match plan.alpha_mode {
         AlphaMode::Opaque => "the material is opaque",
         _ if known.surface("opacity", 1.0) => "it is 1",

@@ -1,14 +1,13 @@
 //! Pass: what the plan's shading is fed with becomes expressions, and what it does not read goes.
 
-use halfvector_graph::document::{AlphaMode, Document};
+use halfvector_graph::document::AlphaMode;
 use halfvector_graph::needs::Needs;
 use halfvector_graph::value::Type;
 
-use crate::Fold;
 use crate::ir::{Expr, Id, Program, Stage};
 use crate::link::Index;
 use crate::passes::fold::fold_stage;
-use crate::passes::plan::{Constants, Coupling, Keep, Known, Metal, Plan, decide, metal};
+use crate::passes::plan::{Constants, Coupling, Known, Metal, Plan, Wanted, decide, metal};
 
 /// Takes the decisions that are the same whatever is folded, on a program whose numbers are folded.
 pub(crate) fn constants(program: &Program<'_>, index: &Index) -> Constants {
@@ -19,7 +18,15 @@ pub(crate) fn constants(program: &Program<'_>, index: &Index) -> Constants {
     if !is("metallic", 0.0) || !fixed {
         return Constants { dielectric_f0: None };
     }
-    let mut probe = Stage { arena: stage.arena.clone(), roots: stage.roots.clone() };
+    let mut probe = Stage::default();
+    if let Some(ior) = literal("ior") {
+        let id = probe.arena.literal(ior.ty, &ior.components());
+        probe.roots.insert("ior", id);
+    }
+    if let Some(specular) = literal("specular") {
+        let id = probe.arena.literal(specular.ty, &specular.components());
+        probe.roots.insert("specular", id);
+    }
     let weight = input(&mut probe, "specular", Type::F32, 1.0);
     let f0 = dielectric_f0(&mut probe, weight, is("specular", 1.0), is("specular", 0.0));
     probe.roots.insert("dielectric_f0", f0);
@@ -58,15 +65,9 @@ pub(crate) const SOCKETS: [&str; 22] = [
 pub(crate) const NORMALS: [&str; 2] = ["normal", "coat_normal"];
 
 /// Decides what is emitted, and makes what it is fed with.
-pub(crate) fn specialise(
-    program: &mut Program<'_>,
-    document: &Document,
-    needs: &Needs,
-    fold: Fold,
-    constants: Constants,
-    keep: Option<Keep>,
-) -> Plan {
-    let plan = decide(program, document, needs, fold, constants, keep);
+pub(crate) fn specialise(program: &mut Program<'_>, wanted: Wanted<'_>) -> Plan {
+    let plan = decide(program, wanted);
+    let Wanted { needs, fold, .. } = wanted;
     let metal = metal(program, fold);
     let weightless = Known { program, fold }.surface("specular", 0.0);
     let full = Known { program, fold }.surface("specular", 1.0);

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use halfvector_graph::check::surface_node;
 use halfvector_graph::document::Document;
 use halfvector_graph::library::Library;
-use halfvector_graph::resolve::resolve_in;
+use halfvector_graph::resolve::resolve_some;
 use halfvector_graph::value::SocketType;
 use halfvector_graph::wiring::Wiring;
 
@@ -39,6 +39,8 @@ pub(crate) struct Types<'a> {
     pub(crate) sources: Vec<Vec<Option<Source>>>,
     /// The surface node.
     pub(crate) surface: usize,
+    /// The document's parameters, by node and input.
+    pub(crate) parameters: HashMap<(&'a str, &'a str), usize>,
 }
 
 impl Types<'_> {
@@ -59,8 +61,11 @@ pub(crate) fn resolve<'a>(document: &'a Document, library: &'a Library) -> Resul
     let root = surface_node(document, library).ok_or(CodegenError::NoSurface)?;
     let wiring = Wiring::new(&document.graph);
     let order = wiring.order(&[root]).map_err(|cycle| CodegenError::Library(cycle.to_string()))?;
-    let resolved = resolve_in(&document.graph, library, &wiring);
-    let mut types = Types { nodes: Vec::new(), sources: Vec::new(), surface: 0 };
+    let resolved = resolve_some(&document.graph, library, &wiring, &order);
+    let mut types = Types { nodes: Vec::new(), sources: Vec::new(), surface: 0, parameters: HashMap::new() };
+    for (number, parameter) in document.parameters.iter().enumerate() {
+        types.parameters.entry((&parameter.socket.node, &parameter.socket.socket)).or_insert(number);
+    }
     let mut index: HashMap<&str, usize> = HashMap::new();
     for id in order {
         let (Some((id, node)), Some(known)) = (document.graph.nodes.get_key_value(id), resolved.get(id)) else {
@@ -84,7 +89,7 @@ pub(crate) fn resolve<'a>(document: &'a Document, library: &'a Library) -> Resul
         index.insert(id, types.nodes.len());
         types.surface = types.nodes.len();
         let label = node.label.as_deref().unwrap_or(&known.def.label);
-        types.nodes.push(NodeInfo { id, label, def: known.def, generic: known.generic });
+        types.nodes.push(NodeInfo { id, label, def: known.def, generic: known.generic, values: &node.values });
         types.sources.push(sources);
     }
     Ok(types)

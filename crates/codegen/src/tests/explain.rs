@@ -89,6 +89,62 @@ fn what_a_product_with_zero_switches_off_leaves_no_trace() {
     assert!(shader.header().contains("// left out: 5 lobes: their weights are 0 (saves "), "{}", shader.header());
 }
 
+/// Nodes that reach the surface and are not in the shader are told, each with its reason; those that are in it are not.
+#[test]
+fn nodes_that_are_left_out_are_told() {
+    let shader = told(
+        &material(
+            "",
+            r#""noise": {"node": "procedural/value_noise_2d", "label": "Grain"}, "wave": {"node": "math/sin"},
+               "none": {"node": "math/multiply", "label": "None", "values": {"b": 0}}, "same": {"node": "math/multiply", "values": {"b": 1}},
+               "sum": {"node": "math/add", "values": {"a": 0.25, "b": 0.5}}, "rough": {"node": "procedural/value_noise_3d"},
+               "twin": {"node": "math/sin"}, "both": {"node": "math/add"}, "dead": {"node": "math/cos"}"#,
+            r#"{"from": "noise.out", "to": "wave.x"}, {"from": "wave.out", "to": "none.a"}, {"from": "none.out", "to": "surface.coat_weight"},
+               {"from": "sum.out", "to": "surface.specular"}, {"from": "rough.out", "to": "surface.coat_roughness"},
+               {"from": "noise.out", "to": "same.a"}, {"from": "same.out", "to": "both.a"}, {"from": "noise.out", "to": "twin.x"},
+               {"from": "twin.out", "to": "both.b"}, {"from": "both.out", "to": "surface.perceptual_roughness"}"#,
+        ),
+        &sun(),
+    );
+    let known = "its value is known: a number stands in its place";
+    let told: Vec<(&str, &str, &str)> =
+        shader.dropped_nodes.iter().map(|n| (n.node.as_str(), n.label.as_str(), n.why.as_str())).collect();
+    assert_eq!(
+        told,
+        [
+            ("none", "None", known),
+            ("rough", "Value Noise 3D", "it feeds only `coat_roughness` (coat_weight is 0)"),
+            ("same", "Multiply", "it changes nothing: what it gets stands in its place"),
+            ("sum", "Add", known),
+            ("wave", "Sine", "it feeds only `None`, which needs no computing"),
+        ]
+    );
+    let of = |id: &str| shader.dropped_nodes.iter().find(|n| n.node == id).and_then(|n| n.instructions);
+    assert!(of("wave") == Some(1) && of("rough") > Some(30), "{:?}", shader.dropped_nodes);
+    let saved: u32 = shader.dropped_nodes.iter().filter_map(|n| n.instructions).sum();
+    let line =
+        format!("// left out: 5 nodes that nothing reads or whose values are known (save {saved} instructions)\n");
+    assert!(shader.header().contains(&line), "{}", shader.header());
+    assert!(told_of_none(&maps()), "nothing is left out of it");
+}
+
+fn told_of_none(document: &Document) -> bool {
+    let shader = told(document, &sun());
+    shader.dropped_nodes.is_empty() && !shader.header().contains("whose value")
+}
+
+/// What does not reach the surface changes nothing.
+#[test]
+fn dead_nodes_change_nothing() {
+    let mut document = maps();
+    let plain = told(&document, &environment());
+    for i in 0..500 {
+        let node = halfvector_graph::document::Node::new("procedural/value_noise_2d");
+        document.graph.nodes.insert(format!("dead{i}"), node);
+    }
+    assert_eq!(told(&document, &environment()), plain);
+}
+
 /// What is remarked stands in the comment of every language that has comments, and stays in it.
 #[test]
 fn remarks_stand_in_the_comment() {

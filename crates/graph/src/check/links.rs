@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::nodes::no_input;
-use super::{Checker, words};
+use super::{Checker, Severity, Told, words};
 use crate::document::{Link, SocketRef};
 use crate::value::SocketType;
 
@@ -12,10 +12,12 @@ pub(super) fn check(checker: &mut Checker) {
     let mut first: HashMap<&SocketRef, &Link> = HashMap::new();
     for link in &graph.links {
         if let Some(earlier) = first.get(&link.to) {
-            let message = format!(
-                "two links lead into this input, from {} and from {}; remove one of them (the first counts)",
-                earlier.from, link.from
-            );
+            let message = Told(|| {
+                format!(
+                    "two links lead into this input, from {} and from {}; remove one of them (the first counts)",
+                    earlier.from, link.from
+                )
+            });
             checker.wrong(&link.to.node, Some(&link.to.socket), message);
             continue;
         }
@@ -26,14 +28,21 @@ pub(super) fn check(checker: &mut Checker) {
 
 fn ends(checker: &mut Checker, link: &Link) {
     if !checker.wiring.contains(&link.to.node) {
-        let message =
-            format!("a link from {} leads to `{}`, but there is no such node; remove the link", link.from, link.to);
-        checker.warn(&link.to.node, Some(&link.to.socket), message);
+        // What it was to feed is not known, so that it may be the surface: an error wherever the material uses the graph.
+        let severity = if checker.is_used { Severity::Error } else { Severity::Warning };
+        let message = || {
+            format!(
+                "a link from {} leads to `{}`, but there is no such node; correct its name, or remove the link",
+                link.from, link.to
+            )
+        };
+        checker.at(severity, &link.to.node, Some(&link.to.socket), Told(message));
         return;
     }
     if !checker.wiring.contains(&link.from.node) {
-        let message =
-            format!("a link comes from `{}`, but there is no such node; remove the link or add the node", link.from);
+        let message = Told(|| {
+            format!("a link comes from `{}`, but there is no such node; remove the link or add the node", link.from)
+        });
         checker.wrong(&link.to.node, Some(&link.to.socket), message);
         return;
     }

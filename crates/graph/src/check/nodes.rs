@@ -1,6 +1,6 @@
 //! Problems of single nodes: names, definitions, values, and nodes that reach nothing.
 
-use super::{Checker, Severity, words};
+use super::{Checker, Severity, Told, words};
 use crate::document::{GROUP_INPUT, GROUP_OUTPUT, Node, NodeId, function_of, group_of, is_name};
 use crate::node_def::{Default, Input, NodeDef};
 use crate::value::{ImageRef, SocketType, Value};
@@ -26,7 +26,8 @@ pub(super) fn check(checker: &mut Checker) {
             // The inputs of a group are there whether it reads them or not.
             if node.node != GROUP_INPUT {
                 let end = if checker.group.is_some() { "the group's outputs" } else { "the surface" };
-                checker.warn(id, None, format!("the node does not reach {end} and is left out; link it or remove it"));
+                let message = || format!("the node does not reach {end} and is left out; link it or remove it");
+                checker.warn(id, None, Told(message));
             }
         }
     }

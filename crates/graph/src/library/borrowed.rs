@@ -5,10 +5,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use halfvector_shaders::{FILES, Item, ItemKind, generic_types, slice};
-
-/// The name of a text of the library's items beside a document's function.
-pub(super) const BORROWED: &str = "library";
+use halfvector_shaders::{FILES, Item, ItemKind, generic_types, slice, tokens};
 
 /// An item of the library.
 struct Known {
@@ -44,6 +41,32 @@ fn known() -> &'static HashMap<String, Known> {
 /// Whether the library has a function of this name.
 pub(super) fn is_function(name: &str) -> bool {
     known().get(name).is_some_and(|known| known.kind == ItemKind::Fn)
+}
+
+/// Whether a function of the library has a loop, itself or in what it calls.
+pub(super) fn loops(name: &str) -> bool {
+    static LOOPING: OnceLock<HashSet<&'static str>> = OnceLock::new();
+    let looping = LOOPING.get_or_init(|| {
+        let is_loop = |text: &str| {
+            let code = tokens(text).into_iter().filter(|token| !token.kind.is_comment());
+            code.map(|token| token.text(text)).any(|word| matches!(word, "for" | "loop" | "while"))
+        };
+        let own = known().iter().filter(|(_, known)| known.kind == ItemKind::Fn && is_loop(known.text));
+        let mut looping: HashSet<&str> = own.map(|(name, _)| name.as_str()).collect();
+        loop {
+            let calls = |known: &Known| known.dependencies.iter().any(|name| looping.contains(name.as_str()));
+            let more: Vec<&str> = known()
+                .iter()
+                .filter(|(name, known)| !looping.contains(name.as_str()) && calls(known))
+                .map(|(name, _)| name.as_str())
+                .collect();
+            if more.is_empty() {
+                return looping;
+            }
+            looping.extend(more);
+        }
+    });
+    looping.contains(name)
 }
 
 /// The names of the library's functions that can be called.

@@ -3,7 +3,7 @@
 //!
 //! Allowed are functions, structs, constants and aliases without attributes, 64 KiB of them, that use WGSL's own
 //! functions, each other, and the library's by their names there. Loops count to a number that stands in the text, and all of them together run at most
-//! [`MAX_WORK`] times. Textures are read with an explicit level or gradient, since a node may stand in a branch. The names get the
+//! [`MAX_WORK`] times; so do those of all nodes that reach the surface (`check`). Textures are read with an explicit level or gradient, since a node may stand in a branch. The names get the
 //! function's id as prefix, so that none shadows anything.
 
 use std::collections::{HashMap, HashSet};
@@ -12,18 +12,19 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use halfvector_shaders::{Item, ItemKind, Token, TokenKind, slice, tokens};
 
-use super::borrowed::{self, BORROWED};
-use super::signature::judge;
-use super::{Library, line_of};
+use super::signature::{SURFACE_STRUCT, judge};
+use super::{Source, borrowed, line_of, node};
 use crate::check::words::nearest;
 use crate::document::is_name;
 use crate::node_def::NodeDef;
 
 /// Longest text, in bytes.
 pub const MAX_BYTES: usize = 64 << 10;
-/// Most turns of loops and calls in one evaluation of the node.
+/// Most turns of loops and calls in one evaluation of the node, and in those of all nodes of a material together.
 pub const MAX_WORK: u64 = 1 << 16;
-/// What a call of one of the library's functions counts for: none of them loops much longer.
+/// Most words and signs of one function: naga's time for a function grows with their square.
+const MAX_TOKENS: usize = 1 << 14;
+/// What a call of one of the library's functions that have loops counts for: none of them loops much longer.
 const LIBRARY_WORK: u64 = 64;
 /// Largest number in the head of a loop: far from where a counter would wrap around.
 const MAX_COUNT: u64 = 1 << 20;
@@ -59,6 +60,8 @@ pub struct CustomFunction {
     pub def: NodeDef,
     /// The text with the names that it has in a shader.
     pub source: String,
+    /// Turns of loops and calls in one evaluation, at most [`MAX_WORK`]. A call of a function of the library that has loops counts 64.
+    pub work: u64,
 }
 
 /// Reads a function of a document by its id. Answers are remembered, so that asking again costs nothing.
@@ -124,21 +127,28 @@ fn read(id: &str, text: &str) -> Result<CustomFunction, CodeError> {
     refuse_items(text, &items)?;
     refuse_words(text, &code)?;
     refuse_structs_in_structs(text, &items)?;
-    work(text, &items, &code)?;
+    let work = work(text, &items, &code)?;
     if halfvector_shaders::generic_types(text).is_some() {
         return fail(0, "a function of a document has fixed types; leave out `//! T =`".into());
     }
     let library = borrowed::reached(text, &items).map_err(|(range, message)| error_at(text, range.start, message))?;
-    judge(&format!("{text}\n{library}")).map_err(|(at, message)| error_at(text, at, with_hint(text, at, message)))?;
+    let bare = without_comments(text);
+    let signatures = judge(&format!("{bare}\n{library}"))
+        .map_err(|(at, message)| error_at(text, at, with_hint(text, at, message)))?;
     let main = main_function(id, text, &items)?;
-    let source = prefixed(id, text, &items, &main);
-    let own = (&*format!("nodes/custom/{id}.wgsl"), &*source);
-    let library = Library::parse(&[own, (BORROWED, &library)]).map_err(|e| {
-        let problem = &e.problems[0];
+    let work = work.get(main.as_str()).copied().unwrap_or(1);
+    let names = new_names(id, &items, &main);
+    let source = renamed(text, &items, &names);
+    let signatures = signatures.renamed(|name| names.get(name).cloned());
+    let (path, mut problems) = (format!("nodes/custom/{id}.wgsl"), Vec::new());
+    let file = Source::read(&path, &source, &mut problems);
+    let mut defs =
+        file.map(|file| node::read_nodes(&file, &signatures, &mut Vec::new(), &mut problems)).unwrap_or_default();
+    if let Some(problem) = problems.first() {
         let line = text.split_inclusive('\n').take(problem.line.saturating_sub(1)).map(str::len).sum();
-        error_at(text, line, problem.message.clone())
-    })?;
-    let Some(mut def) = library.get(&format!("custom/{id}")).cloned() else {
+        return fail(line, problem.message.clone());
+    }
+    let (Some(mut def), true) = (defs.pop(), defs.is_empty()) else {
         return fail(0, format!("write `/// @node custom/{id}` above the function that is the node"));
     };
     def.file = format!("custom/{id}");
@@ -149,7 +159,22 @@ fn read(id: &str, text: &str) -> Result<CustomFunction, CodeError> {
             "it compares neighbouring pixels, which fails in a branch: read textures with textureSampleLevel or textureSampleGrad, take no derivatives, and of the library's nodes call the form of the vertex stage, such as `node_procedural_wave_vertex`".into(),
         );
     }
-    Ok(CustomFunction { def, source })
+    Ok(CustomFunction { def, source, work })
+}
+
+/// The text with blanks for comments that are no docs: naga drops the docs after them. Each byte stays where it is.
+fn without_comments(text: &str) -> String {
+    let mut bare = String::with_capacity(text.len());
+    let mut at = 0;
+    for token in tokens(text) {
+        if matches!(token.kind, TokenKind::LineComment | TokenKind::BlockComment | TokenKind::ModuleComment) {
+            bare.push_str(&text[at..token.start]);
+            bare.extend(token.text(text).bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' }));
+            at = token.end;
+        }
+    }
+    bare.push_str(&text[at..]);
+    bare
 }
 
 /// What naga says of an unknown name, with the function of the library that was perhaps meant.
@@ -183,6 +208,13 @@ fn refuse_items(text: &str, items: &[Item]) -> Result<(), CodeError> {
                 text,
                 item.name_range.start,
                 "`T` is the library's name for any type; choose another name",
+            ));
+        }
+        if item.name == SURFACE_STRUCT {
+            return Err(error_at(
+                text,
+                item.name_range.start,
+                "`Surface` is the library's name for what a material is; choose another name",
             ));
         }
         if !names.insert(item.name.as_str()) {
@@ -258,8 +290,9 @@ struct Turns {
     until: usize,
 }
 
-/// Refuses loops that are not counted, and more turns and calls than [`MAX_WORK`].
-fn work(text: &str, items: &[Item], code: &[Token]) -> Result<(), CodeError> {
+/// The turns of loops and calls that each function takes, by name. Refuses loops that are not counted, more turns and calls than
+/// [`MAX_WORK`], and functions that are too long.
+fn work<'i>(text: &str, items: &'i [Item], code: &[Token]) -> Result<HashMap<&'i str, u64>, CodeError> {
     let constants: HashMap<&str, u64> = items
         .iter()
         .filter(|item| item.kind == ItemKind::Const)
@@ -279,6 +312,14 @@ fn work(text: &str, items: &[Item], code: &[Token]) -> Result<(), CodeError> {
     for item in &functions {
         let first = code.partition_point(|token| token.start < item.name_range.end);
         let last = code.partition_point(|token| token.start < item.end);
+        if last - first > MAX_TOKENS {
+            let message = format!(
+                "`{}` has {} words and signs; {MAX_TOKENS} are the most that one function may have: make several of it",
+                item.name,
+                last - first
+            );
+            return Err(error_at(text, item.code_start, message));
+        }
         let (turns, called) = function_work(text, &code[first..last], &constants, &number)?;
         own.push(turns);
         calls.push(called);
@@ -311,7 +352,7 @@ fn work(text: &str, items: &[Item], code: &[Token]) -> Result<(), CodeError> {
             path.pop();
         }
     }
-    Ok(())
+    Ok(functions.iter().zip(total).map(|(item, total)| (item.name.as_str(), total.unwrap_or(1))).collect())
 }
 
 /// The turns of a function's loops, and what it calls how often.
@@ -337,7 +378,8 @@ fn function_work(
         {
             calls.push((*callee, times(&loops)));
         } else if borrowed::is_function(word) && code.get(i + 1).is_some_and(|next| next.text(text) == "(") {
-            own = own.saturating_add(times(&loops).saturating_mul(LIBRARY_WORK));
+            let each = if borrowed::loops(word) { LIBRARY_WORK } else { 1 };
+            own = own.saturating_add(times(&loops).saturating_mul(each));
         }
     }
     Ok((own, calls))
@@ -457,16 +499,17 @@ fn main_function(id: &str, text: &str, items: &[Item]) -> Result<String, CodeErr
     main.ok_or_else(|| error_at(text, 0, wanted))
 }
 
-/// The text with its names in a shader; lines stay where they are.
-fn prefixed(id: &str, text: &str, items: &[Item], main: &str) -> String {
-    let new: HashMap<&str, String> = items
-        .iter()
-        .map(|item| {
-            let name =
-                if item.name == main { format!("node_custom_{id}") } else { format!("custom_{id}_{}", item.name) };
-            (item.name.as_str(), name)
-        })
-        .collect();
+/// The names that the items have in a shader, by those in the text.
+fn new_names<'i>(id: &str, items: &'i [Item], main: &str) -> HashMap<&'i str, String> {
+    let new = |item: &'i Item| {
+        let name = if item.name == main { format!("node_custom_{id}") } else { format!("custom_{id}_{}", item.name) };
+        (item.name.as_str(), name)
+    };
+    items.iter().map(new).collect()
+}
+
+/// The text with other names of its items; lines stay where they are.
+fn renamed(text: &str, items: &[Item], new: &HashMap<&str, String>) -> String {
     let mut places: Vec<_> = items
         .iter()
         .flat_map(|item| item.references.iter().chain([&item.name_range]))

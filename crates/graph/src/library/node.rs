@@ -2,7 +2,6 @@
 
 use halfvector_shaders::ItemKind;
 
-use super::borrowed::BORROWED;
 use super::grammar::{self, ArgumentDoc, DefaultDoc, NodeDoc};
 use super::signature::{ArgumentType, ResultType, SURFACE_STRUCT, Signature, Signatures};
 use super::{LibraryProblem, Source, line_of};
@@ -52,7 +51,7 @@ pub(super) fn read_nodes(
 /// Reports functions that are named as a node's and are none: their comment has no `@node`.
 pub(super) fn refuse_forgotten(sources: &[Source], taken: &[String], problems: &mut Vec<LibraryProblem>) {
     let taken: std::collections::HashSet<&str> = taken.iter().map(String::as_str).collect();
-    for source in sources.iter().filter(|source| source.path != BORROWED) {
+    for source in sources {
         for item in source.items.iter().filter(|item| item.kind == ItemKind::Fn && item.name.starts_with("node_")) {
             if !taken.contains(item.name.as_str()) {
                 problems.push(LibraryProblem {

@@ -55,6 +55,12 @@ pub(super) struct Signatures {
 const STACK: usize = 64 << 20;
 
 impl Signatures {
+    /// The same under other names: those that `name` exchanges.
+    pub(super) fn renamed(self, name: impl Fn(&str) -> Option<String>) -> Signatures {
+        let new = |(old, signatures): (String, [Signature; 2])| (name(&old).unwrap_or(old), signatures);
+        Signatures { functions: self.functions.into_iter().map(new).collect() }
+    }
+
     /// Parses the files as one module, once for each of two types of `T`.
     pub(super) fn read(sources: &[Source]) -> Result<Signatures, LibraryProblem> {
         let both = [0, 1].map(|choice| {
@@ -113,11 +119,12 @@ impl Signatures {
 /// A place in the joined text and what is wrong there.
 type ParseError = (usize, String);
 
-/// Parses and validates a text by itself, on a large stack. The text's nesting is bounded before.
+/// Parses and validates a text by itself, on a large stack, and reads the signatures of its functions, none of which is generic. The
+/// text's nesting is bounded before.
 ///
 /// # Errors
 /// What naga has against it, and at which byte.
-pub(super) fn judge(text: &str) -> Result<(), (usize, String)> {
+pub(super) fn judge(text: &str) -> Result<Signatures, (usize, String)> {
     let work = || {
         let module = parse(text)?;
         let too_large = module.types.iter().find(|(_, ty)| ty.inner.size(module.to_ctx()) > MAX_TYPE_BYTES);
@@ -127,7 +134,7 @@ pub(super) fn judge(text: &str) -> Result<(), (usize, String)> {
         }
         let mut validator =
             naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
-        validator.validate(&module).map(|_| ()).map_err(|e| {
+        validator.validate(&module).map_err(|e| {
             let at = e.spans().filter_map(|(span, _)| span.to_range()).map(|range| range.start).last().unwrap_or(0);
             let mut message = e.as_inner().to_string();
             let mut source = std::error::Error::source(e.as_inner());
@@ -136,7 +143,9 @@ pub(super) fn judge(text: &str) -> Result<(), (usize, String)> {
                 source = cause.source();
             }
             (at, message)
-        })
+        })?;
+        let both = |(name, signature): (String, Signature)| (name, [signature.clone(), signature]);
+        Ok(Signatures { functions: signatures(&module).into_iter().map(both).collect() })
     };
     std::thread::scope(|scope| match std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work) {
         Ok(worker) => worker.join().unwrap_or_else(|_| Err((0, "the WGSL parser failed".into()))),
@@ -172,7 +181,11 @@ fn parse(text: &str) -> Result<naga::Module, ParseError> {
 }
 
 fn read_module(text: &str) -> Result<HashMap<String, Signature>, ParseError> {
-    let module = parse(text)?;
+    parse(text).map(|module| signatures(&module))
+}
+
+/// The signatures of a module's functions by name.
+fn signatures(module: &naga::Module) -> HashMap<String, Signature> {
     let mut implicit = Vec::with_capacity(module.functions.len());
     let mut signatures = HashMap::new();
     for (_, function) in module.functions.iter() {
@@ -184,11 +197,11 @@ fn read_module(text: &str) -> Result<HashMap<String, Signature>, ParseError> {
             .iter()
             .map(|a| (a.name.clone().unwrap_or_default(), argument_type(&module.types[a.ty])))
             .collect();
-        let result = function.result.as_ref().map_or(ResultType::None, |result| result_type(&module, result.ty));
+        let result = function.result.as_ref().map_or(ResultType::None, |result| result_type(module, result.ty));
         let name = function.name.clone().unwrap_or_default();
         signatures.insert(name, Signature { arguments, result, implicit_derivatives: takes });
     }
-    Ok(signatures)
+    signatures
 }
 
 /// Whether a function takes implicit derivatives, itself or through a callee; `of_callees` holds the answer for each function before it.

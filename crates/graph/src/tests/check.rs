@@ -97,7 +97,8 @@ fn links() {
     one(&with("m.out", "surface.metal"), Severity::Error, "surface.metal", "it has base_color, perceptual_roughness");
     one(&with("m.value", "surface.height"), Severity::Error, "m.value", "no such output; it has out");
     one(&with("gone.out", "surface.height"), Severity::Error, "surface.height", "no such node");
-    one(&with("m.out", "gone.a"), Severity::Warning, "gone.a", "no such node");
+    // What it was to feed may be what a shader needs.
+    one(&with("m.out", "gone.a"), Severity::Error, "gone.a", "there is no such node; correct its name");
     one(&with("rust.rgba", "surface.normal"), Severity::Error, "surface.normal", "link its output `color` instead");
     one(&with("rust.color", "surface.height"), Severity::Error, "surface.height", "components would be lost");
     one(&with("surface.out", "m.a"), Severity::Error, "m.a", "the end of the material");

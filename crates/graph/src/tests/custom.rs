@@ -70,7 +70,7 @@ fn the_librarys_functions_can_be_called() {
         ("    return luminance(x);", "doesn't match the type"),
         ("    return node_procedural_value_noise_3d(vec3f(x), 4.0, 1);", "the form of the vertex stage"),
         (
-            "    var s = 0.0;\n    for (var i = 0; i < 2000; i++) {\n        s += luminance(vec3f(x));\n    }\n    return s;",
+            "    var s = 0.0;\n    for (var i = 0; i < 2000; i++) {\n        s += node_procedural_fbm_2d_vertex(vec2f(x), 4.0, 3, 2.0, 0.5, 1);\n    }\n    return s;",
             "turns of loops and calls",
         ),
     ] {
@@ -136,6 +136,7 @@ fn what_reaches_beyond_a_node_is_refused() {
         ("diagnostic(off, derivative_uniformity);\n", "expected `fn`"),
         ("fn g(p: ptr<function, f32>) -> f32 { return *p; }\n", "works on values only"),
         ("alias T = f32;\n", "`T` is the library's name"),
+        ("struct Surface { x: f32 }\n", "`Surface` is the library's name"),
         ("//! T = f32 | vec2f\n", "fixed types"),
         ("const A = 1;\nconst A = 2;\n", "`A` stands twice"),
         ("struct A { x: f32 }\nstruct B { a: A, b: A }\n", "numbers, vectors, matrices and arrays"),
@@ -197,8 +198,41 @@ fn what_need_not_end_is_refused() {
     assert!(read_function("test", &text(counted, "")).is_ok(), "{:?}", read_function("test", &text(counted, "")));
 }
 
+/// What all nodes take together is bounded like what one takes, wherever they stand. A call of a library function without loops is one
+/// turn, and of one with loops many.
+#[test]
+fn turns_are_summed_over_the_nodes_that_reach_the_surface() {
+    let looping =
+        |turns: u64| text(&format!("var s = 0.0;\nfor (var i = 0; i < {turns}; i++) {{ s += x; }}\nreturn s;"), "");
+    let work = |text: &str| read_function("test", text).unwrap_or_else(|e| panic!("{e}")).work;
+    assert_eq!(work(&looping(30_000)), 30_001);
+    assert_eq!(work(&text("return luminance(vec3f(x));", "")), 2);
+    assert_eq!(work(&text("return node_procedural_fbm_2d_vertex(vec2f(x), 4.0, 3, 2.0, 0.5, 1);", "")), 65);
+    // In a row, and one that reaches nothing.
+    let mut d = document(
+        &[("a", "custom/test"), ("b", "custom/test"), ("dead", "custom/test")],
+        &[("a.out", "b.x"), ("b.out", "surface.height")],
+    );
+    d.functions.insert("test".into(), looping(30_000));
+    assert!(check(&d, small()).iter().all(|p| p.severity == Severity::Warning));
+    d.functions.insert("test".into(), looping(40_000));
+    let told = |d: &crate::document::Document| {
+        let problems = check(d, small());
+        problems
+            .iter()
+            .any(|p| p.severity == Severity::Error && p.message.contains("take 80002 turns of loops and calls"))
+    };
+    assert!(told(&d), "{:?}", check(&d, small()));
+    // A group counts as often as it is used.
+    let edit = collapse(&d, small(), None, &["a".into(), "b".into()], "G").expect("a group");
+    crate::edit::apply(&mut d, &edit).expect("applied");
+    assert!(told(&d), "{:?}", check(&d, small()));
+}
+
 #[test]
 fn hostile_texts_are_refused_at_once() {
+    // naga takes the square of a function's length.
+    refused(&text(&format!("var s = x;\n{}return s;", "s = s + x;\n".repeat(3000)), ""), "words and signs; 16384 are");
     let terms = vec!["x"; 10_000].join(" + ");
     refused(&text(&format!("return {terms};"), ""), "nested too deeply");
     refused(&text(&format!("return {}x{};", "(".repeat(5000), ")".repeat(5000)), ""), "nested too deeply");

@@ -46,6 +46,16 @@ fn told(d: &Document, severity: Severity, part: &str) {
     assert_eq!(found, 1, "wanted {part:?}, got {:#?}", problems.iter().map(ToString::to_string).collect::<Vec<_>>());
 }
 
+/// A link of a group to a node that is not there is as bad as the use of the group.
+#[test]
+fn a_link_to_nothing_is_an_error_where_the_group_is_used() {
+    let mut d = banded();
+    d.groups.get_mut("band").expect("the group").graph.links.push(link("in.x", "gone.a"));
+    told(&d, Severity::Error, "leads to `gone.a`, but there is no such node");
+    d.graph.links.clear();
+    told(&d, Severity::Warning, "leads to `gone.a`, but there is no such node");
+}
+
 #[test]
 fn a_group_is_a_node_of_its_document() {
     let d = banded();

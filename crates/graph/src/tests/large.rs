@@ -115,6 +115,16 @@ fn wrong_nodes_in_number_are_told_quickly() {
     told(&|_| Node::new("surface/surface"), &to_many);
 }
 
+/// Links that lead nowhere, as many as there may be.
+#[test]
+fn broken_links_in_number_are_told_quickly() {
+    let mut d = document(&[], &[]);
+    d.graph.links.extend((0..190_000).map(|i| link(&format!("a{i}.out"), &format!("b{i}.a"))));
+    let problems = timed("checking 190,000 broken links", || check(&d, small()));
+    assert_eq!(problems.len(), 10_001);
+    assert!(problems[10_000].message.contains("180000 more errors"), "{}", problems[10_000]);
+}
+
 /// Each kind of too much is told at once and alone, and what it is too much of.
 #[test]
 fn too_much_is_counted_before_anything_is_built() {
