@@ -8,6 +8,7 @@
 mod borrowed;
 pub mod custom;
 mod grammar;
+mod loops;
 mod node;
 pub(crate) mod own;
 mod signature;

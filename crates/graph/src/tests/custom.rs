@@ -159,7 +159,7 @@ fn what_reaches_beyond_a_node_is_refused() {
 
 #[test]
 fn what_need_not_end_is_refused() {
-    const COUNTED: &str = "a loop counts to a number";
+    const COUNTED: &str = "a loop counts from a number";
     for (body, part) in [
         ("loop { }\nreturn x;", "need not end"),
         ("while true { }\nreturn x;", "need not end"),
@@ -170,6 +170,11 @@ fn what_need_not_end_is_refused() {
         ("for (var i = 0.0; i < 1.0; i += 1e-30) { }\nreturn x;", COUNTED),
         ("for (var i = 0; i != 10; i++) { }\nreturn x;", COUNTED),
         ("for (var i = 0; i < 10; i--) { }\nreturn x;", COUNTED),
+        ("for (var i = 10; i > 0; i++) { }\nreturn x;", COUNTED),
+        ("for (var i = 8u; i >= 0u; i--) { }\nreturn x;", "counts below 0"),
+        ("for (var i: u32 = 5; i > 0; i -= 2) { }\nreturn x;", "counts below 0"),
+        ("for (var i = N; i >= 0; i--) { }\nreturn x;", "counts below 0"),
+        ("for (var i = 10; i > -1000000; i--) { }\nreturn x;", "turns of loops and calls"),
         ("for (var i = 0; i <= 9; i++) { i = 0; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { i -= 1; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { i--; }\nreturn x;", "counter is changed"),
@@ -196,6 +201,18 @@ fn what_need_not_end_is_refused() {
     // What counts is not refused.
     let counted = "var s = 0.0;\nfor (var i: u32 = 1u; i <= 8u; i += 2u) { let a = i & 3u; if i == 2u { continue; } s += f32(a - i); }\nfor (var j = 0; j < 4; j++) { s += x; }\nreturn s;";
     assert!(read_function("test", &text(counted, "")).is_ok(), "{:?}", read_function("test", &text(counted, "")));
+    for (head, turns) in [
+        ("var j = -1; j <= 1; j++", 3),
+        ("var j = 8; j > 0; j -= 3", 3),
+        ("var j = 2; j >= -2; j--", 5),
+        ("var j: u32 = 6; j > 0; j -= 2", 3),
+        ("var j = N; j > 0; j--", 8),
+        ("var j = 5; j < -5; j++", 0),
+    ] {
+        let source = text(&format!("var s = x;\nfor ({head}) {{ s += f32(j); }}\nreturn s;"), "const N = 8;\n");
+        let function = read_function("test", &source).unwrap_or_else(|error| panic!("{head}: {error}"));
+        assert_eq!(function.work, turns + 1, "{head}");
+    }
 }
 
 /// What all nodes take together is bounded like what one takes, wherever they stand. A call of a library function without loops is one
