@@ -21,12 +21,15 @@ struct PointLight {
 struct SpotLight {
     /// Where it is, in world space [m].
     position: vec3f,
+    /// Scale that takes the cosine to the axis, with cos_offset, to 0 at the outer and 1 at the inner cone. Each number
+    /// fills the fourth of a vector: every shading language lays that out alike.
+    cos_scale: f32,
     /// Luminous intensity on the axis [cd].
     intensity: vec3f,
+    /// Offset of the scaled cosine.
+    cos_offset: f32,
     /// Unit direction of the axis, the way the light shines, in world space.
     direction: vec3f,
-    /// Scale and offset that take the cosine to the axis to 0 at the outer and 1 at the inner cone.
-    cos_scale_offset: vec2f,
 }
 
 /// What arrives at a point from a light.
@@ -59,6 +62,6 @@ fn point_light_sample(light: PointLight, position: vec3f) -> LightSample {
 fn spot_light_sample(light: SpotLight, position: vec3f) -> LightSample {
     let all_around = point_light_sample(PointLight(light.position, light.intensity), position);
     let cos_to_axis = -dot(light.direction, all_around.dir);
-    let cone = saturate(cos_to_axis * light.cos_scale_offset.x + light.cos_scale_offset.y);
+    let cone = saturate(cos_to_axis * light.cos_scale + light.cos_offset);
     return LightSample(all_around.dir, all_around.illuminance * (cone * cone));
 }

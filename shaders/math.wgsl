@@ -24,13 +24,20 @@ fn pow5(x: f32) -> f32 {
 /// WGSL leaves its result for NaN open.
 fn normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
     let length2 = dot(v, v);
-    let has_direction = (length2 > LENGTH2_FLOOR) & (length2 < LENGTH2_CEILING);
-    return select(fallback, v * inverseSqrt(length2), has_direction);
+    let has_direction = clamp(length2, LENGTH2_FLOOR, LENGTH2_CEILING) == length2;
+    return select(fallback, normalize(v), has_direction);
+}
+
+/// A unit direction across a unit normal, any.
+fn any_tangent(normal: vec3f) -> vec3f {
+    let aside = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.x) > 0.7);
+    return normalize(cross(normal, aside));
 }
 
 /// The colour with each channel that is NaN or infinite set to 0.
 ///
-/// The last line of every lobe, so that one bad texel stays one dark pixel and does not spread through a filter.
+/// What a shader ends in, so that one bad texel stays one dark pixel and does not spread through a filter. (The Rust lobes,
+/// which are called one by one, each end in it.)
 fn finite_or_zero(c: vec3f) -> vec3f {
     return select(vec3f(0.0), c, abs(c) < vec3f(FINITE_CEILING));
 }

@@ -22,7 +22,7 @@ fn coupling_compensated(f0: f32, f90: f32, dfg: vec2f) -> f32 {
 
 /// coupling_compensated of each channel: an interface under a film.
 fn coupling_colored(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
-    let average = f0 + (f90 - f0) * (1.0 / 21.0);
+    let average = mix(f0, f90, 1.0 / 21.0);
     let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
     return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
 }

@@ -24,14 +24,15 @@ struct Half {
     l_dot_h: f32,
     /// sin^2 of the angle between n and h, as |n x h|^2.
     sin2_theta_h: f32,
+    /// h, unit; zero where there is none.
+    h: vec3f,
 }
 
 /// The frame of a unit shading normal and a unit direction to the viewer, with n.v held in [N_DOT_V_FLOOR, 1].
 ///
 /// NaN in either gives n_dot_v = N_DOT_V_FLOOR.
 fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
-    let n_dot_v = dot(normal, view_dir);
-    return Frame(normal, view_dir, select(N_DOT_V_FLOOR, min(n_dot_v, 1.0), n_dot_v > N_DOT_V_FLOOR));
+    return Frame(normal, view_dir, clamp(dot(normal, view_dir), N_DOT_V_FLOOR, 1.0));
 }
 
 /// The half vector of the unit direction `dir` to a light.
@@ -41,7 +42,6 @@ fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
 /// below an angle of 3e-4, and v.h by a dot product none where l is opposite to v.
 /// Where v + l = 0 there is no half vector: l.h = n.h = 0 and sin^2 = 1, which is h in the tangent plane.
 fn half_from_light(frame: Frame, dir: vec3f) -> Half {
-    let n_dot_l = dot(frame.normal, dir);
     let sum = frame.view_dir + dir;
     let length2 = dot(sum, sum);
     let has_half = length2 > LENGTH2_FLOOR;
@@ -49,9 +49,10 @@ fn half_from_light(frame: Frame, dir: vec3f) -> Half {
     let h = sum * inv_length;
     let sine = cross(frame.normal, h);
     return Half(
-        select(0.0, min(n_dot_l, 1.0), n_dot_l > 0.0),
+        saturate(dot(frame.normal, dir)),
         dot(frame.normal, h),
         0.5 * length2 * inv_length,
         select(1.0, dot(sine, sine), has_half),
+        h,
     );
 }

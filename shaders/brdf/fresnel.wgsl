@@ -17,7 +17,7 @@ const F82_SCALE: f32 = 823543.0 / 46656.0;
 /// Schlick 1994, An Inexpensive BRDF Model for Physically-based Rendering:
 /// F = f0 + (f90 - f0) (1 - l.h)^5.
 fn f_schlick(f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
-    return f0 + (f90 - f0) * pow5(clamp(1.0 - l_dot_h, 0.0, 1.0));
+    return mix(f0, f90, pow5(max(1.0 - l_dot_h, 0.0)));
 }
 
 /// Fresnel's equations for the dielectric that f0 / f90 implies, per channel, scaled to f90:
@@ -41,12 +41,12 @@ fn f_dielectric(eta: f32, cos_theta: f32) -> f32 {
     let c = clamp(cos_theta, 0.0, 1.0);
     let n = min(eta, ETA_CEILING);
     let e = (n - 1.0) * (n + 1.0);
-    let g2 = e + c * c;
-    let g = sqrt(max(g2, 0.0));
+    let g = sqrt(max(e + c * c, 0.0));
     let sum = max(g + c, COSINE_SUM_FLOOR);
     let r_s = e / (sum * sum);
     let r_p = r_s * sum * (c * sum - 1.0) / max(n * n * c + g, COSINE_SUM_FLOOR);
-    return select(0.5 * (r_s * r_s + r_p * r_p), 1.0, g2 < 0.0);
+    // Where all is reflected both are 1 or more.
+    return min(0.5 * (r_s * r_s + r_p * r_p), 1.0);
 }
 
 /// Reflectance at normal incidence of a dielectric in air: ((ior - 1)/(ior + 1))^2.

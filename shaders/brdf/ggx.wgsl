@@ -14,7 +14,7 @@ const V_FLOOR: f32 = 1e-36;
 ///
 /// Held in [0, 1]; NaN gives 1.
 fn alpha_from_perceptual_roughness(perceptual_roughness: f32) -> f32 {
-    let r = select(1.0, max(perceptual_roughness, 0.0), perceptual_roughness < 1.0);
+    let r = saturate(perceptual_roughness);
     return r * r;
 }
 
@@ -34,8 +34,8 @@ fn d_ggx(n_dot_h: f32, sin2_theta_h: f32, alpha: f32) -> f32 {
 /// V = 1/2 / (n.l sqrt(alpha^2 + (1 - alpha^2)(n.v)^2) + n.v sqrt(alpha^2 + (1 - alpha^2)(n.l)^2)).
 fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
-    let view = n_dot_l * sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v);
-    let light = n_dot_v * sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l);
+    let view = n_dot_l * sqrt(mix(n_dot_v * n_dot_v, 1.0, a2));
+    let light = n_dot_v * sqrt(mix(n_dot_l * n_dot_l, 1.0, a2));
     return 0.5 / max(view + light, V_FLOOR);
 }
 
@@ -43,7 +43,7 @@ fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) 
 /// V = 1 / ((n.v + sqrt(alpha^2 + (1 - alpha^2)(n.v)^2)) (n.l + sqrt(alpha^2 + (1 - alpha^2)(n.l)^2))).
 fn v_smith_ggx_separable(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
-    let view = n_dot_v + sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v);
-    let light = n_dot_l + sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l);
+    let view = n_dot_v + sqrt(mix(n_dot_v * n_dot_v, 1.0, a2));
+    let light = n_dot_l + sqrt(mix(n_dot_l * n_dot_l, 1.0, a2));
     return 1.0 / max(view * light, V_FLOOR);
 }

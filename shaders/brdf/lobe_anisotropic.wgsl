@@ -22,7 +22,7 @@ fn anisotropic_alphas_gltf(perceptual_roughness: f32, anisotropy: f32) -> vec2f 
     let r = saturate(perceptual_roughness);
     let strength = saturate(anisotropy);
     let alpha = r * r;
-    return vec2f(alpha + (1.0 - alpha) * strength * strength, alpha);
+    return vec2f(mix(alpha, 1.0, strength * strength), alpha);
 }
 
 /// (alpha_t, alpha_b) of OpenPBR 1.1 (Academy Software Foundation 2024), section 3.3: alpha_t = alpha sqrt(2 / (1 + q^2)),
@@ -38,26 +38,31 @@ fn anisotropic_alphas_openpbr(perceptual_roughness: f32, anisotropy: f32) -> vec
 /// bitangent), made perpendicular to the shading normal and turned by `rotation` [rad] towards the bitangent, as
 /// KHR_materials_anisotropy (Khronos 2023) counts it. A tangent of zero or along the normal is replaced by any other.
 fn anisotropic_tangent(normal: vec3f, tangent: vec4f, rotation: f32) -> vec3f {
-    let aside = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.x) > 0.7);
-    let other = normalize_or(aside - normal * dot(normal, aside), aside);
-    let t = normalize_or(tangent.xyz - normal * dot(normal, tangent.xyz), other);
-    let across = cross(normal, t);
-    let bitangent = select(across, -across, tangent.w < 0.0);
-    return cos(rotation) * t + sin(rotation) * bitangent;
+    let t = tangent_across(normal, tangent);
+    let side = select(sin(rotation), -sin(rotation), tangent.w < 0.0);
+    return cos(rotation) * t + side * cross(normal, t);
+}
+
+/// anisotropic_tangent for the rotation 0.
+fn tangent_across(normal: vec3f, tangent: vec4f) -> vec3f {
+    return normalize_or(tangent.xyz - normal * dot(normal, tangent.xyz), any_tangent(normal));
 }
 
 /// D V F times n.l for the unit direction `l` to a light, in 1/sr; 0 where the light is behind the surface.
 fn anisotropic_eval(frame: Frame, l: vec3f, p: Anisotropic) -> vec3f {
+    let f = f_schlick(p.f0, p.f90, half_from_light(frame, l).l_dot_h);
+    return f * anisotropic_lit(frame, l, p);
+}
+
+/// anisotropic_eval without its F: D V n.l.
+fn anisotropic_lit(frame: Frame, l: vec3f, p: Anisotropic) -> f32 {
     let half = half_from_light(frame, l);
-    let bitangent = cross(frame.normal, p.tangent);
-    let h = normalize_or(frame.view_dir + l, vec3f(0.0));
-    let h_in_tangent = vec3f(dot(p.tangent, h), dot(bitangent, h), half.n_dot_h);
-    let view = vec3f(dot(p.tangent, frame.view_dir), dot(bitangent, frame.view_dir), frame.n_dot_v);
-    let light = vec3f(dot(p.tangent, l), dot(bitangent, l), half.n_dot_l);
-    let d = d_ggx_anisotropic(h_in_tangent, p.alpha_t, p.alpha_b);
-    let v = v_smith_ggx_anisotropic(view, light, p.alpha_t, p.alpha_b);
-    let f = f_schlick(p.f0, p.f90, half.l_dot_h);
-    return finite_or_zero(f * (v * half.n_dot_l * d));
+    let world_from_tangent = mat3x3f(p.tangent, cross(frame.normal, p.tangent), frame.normal);
+    // Of v only n.v is held, as in the frame.
+    let view = max(frame.view_dir * world_from_tangent, vec3f(-1.0, -1.0, N_DOT_V_FLOOR));
+    let light = l * world_from_tangent;
+    let d = d_ggx_anisotropic(half.h * world_from_tangent, p.alpha_t, p.alpha_b);
+    return v_smith_ggx_anisotropic(view, light, p.alpha_t, p.alpha_b) * half.n_dot_l * d;
 }
 
 /// The direction in which an environment is looked up for an anisotropic highlight: the mirror direction about a normal
@@ -91,30 +96,27 @@ struct AnisotropicStrip {
 /// along the strips, and 0.2 of the gap to the next one. Constants are our own; the weight is n.l (Karis 2013).
 fn anisotropic_strip(frame: Frame, tangent: vec3f, alpha_t: f32, alpha_b: f32, index: f32) -> AnisotropicStrip {
     let spread2 = max(alpha_t * alpha_t - alpha_b * alpha_b, 0.0);
-    let spread = sqrt(spread2);
     let apart = spread2 / max(alpha_t * alpha_t, 1e-18);
-    let x = (2.0 * index + 1.0) / f32(ANISOTROPIC_STRIPS) - 1.0;
+    let along = dot(frame.view_dir, tangent);
+    let x = (2.0 / f32(ANISOTROPIC_STRIPS)) * index + (1.0 / f32(ANISOTROPIC_STRIPS) - 1.0);
     let widening2 = 1.0 / (1.0 - x * x);
-    let widening = sqrt(widening2);
-    let slope = spread * x * widening;
-    let cos_h = 1.0 / sqrt(1.0 + slope * slope);
-    let h = (frame.normal + slope * tangent) * cos_h;
-    let axis = (tangent - slope * frame.normal) * cos_h;
-    let v_dot_h = dot(frame.view_dir, h);
-    let dir = 2.0 * v_dot_h * h - frame.view_dir;
-    let lean = dot(frame.view_dir, axis);
-    let aside = dot(frame.view_dir, cross(frame.normal, tangent));
-    let across = 1.0 + (sqrt(max(1.0 - lean * lean, 1e-4)) - 1.0) * apart;
-    let gap2 = spread2 * widening2 * widening2 * widening2 * (cos_h * cos_h) * max(1.0 - aside * aside, 1e-4);
-    let width2 = alpha_b * alpha_b * (1.0 + (widening2 - 1.0) * apart) * across * across;
+    let slope = x * sqrt(spread2 * widening2);
+    let cos_h = inverseSqrt(1.0 + slope * slope);
+    let dir = reflect(-frame.view_dir, (frame.normal + slope * tangent) * cos_h);
+    let lean = (along - slope * frame.n_dot_v) * cos_h;
+    let across = alpha_b * mix(1.0, sqrt(max(1.0 - lean * lean, 1e-4)), apart);
+    // 1 less the square of what of v lies across the strips.
+    let aside = along * along + frame.n_dot_v * frame.n_dot_v;
+    let gap = widening2 * cos_h;
     // 0.2 of the gap 2 / ANISOTROPIC_STRIPS in x, squared.
-    let alpha2 = (width2 + 0.0064 * gap2) * (cos_h * cos_h);
-    let weight = select(1e-3, max(dot(frame.normal, dir), 1e-3), v_dot_h > 0.0);
-    return AnisotropicStrip(dir, sqrt(sqrt(min(alpha2, 1.0))), weight);
+    let gap2 = 0.0064 * gap * gap * widening2 * (spread2 * aside);
+    let alpha2 = (across * across * mix(1.0, widening2, apart) + gap2) * (cos_h * cos_h);
+    // Where v.h < 0, n.l is, too.
+    return AnisotropicStrip(dir, sqrt(sqrt(min(alpha2, 1.0))), max(dot(frame.normal, dir), 1e-3));
 }
 
 /// Karis 2013, the split sum: prefiltered radiance of anisotropic_strip or of anisotropic_reflection times the lobe's directional albedo, taken as
 /// that of the width sqrt(alpha_t alpha_b).
 fn anisotropic_environment(p: Anisotropic, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(prefiltered_radiance * (p.f0 * dfg.x + p.f90 * dfg.y));
+    return prefiltered_radiance * (p.f0 * dfg.x + p.f90 * dfg.y);
 }

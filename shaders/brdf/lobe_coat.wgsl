@@ -23,13 +23,13 @@ fn coat_eval(frame: Frame, l: vec3f, p: Coat) -> vec3f {
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
     let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
     let f = f_schlick(vec3f(p.f0), vec3f(1.0), h.l_dot_h);
-    return finite_or_zero(f * (p.weight * (v * h.n_dot_l * d)));
+    return f * (p.weight * (v * h.n_dot_l * d));
 }
 
 /// Radiance that the coat reflects from an environment: `prefiltered_radiance` about its reflection at the coat's
 /// roughness, times weight (f0 a + b) for the split-sum pair `dfg` at the coat's roughness.
 fn coat_environment(p: Coat, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(prefiltered_radiance * (p.weight * (p.f0 * dfg.x + dfg.y)));
+    return prefiltered_radiance * (p.weight * (p.f0 * dfg.x + dfg.y));
 }
 
 /// What the base keeps of its own light below the coat, seen at n.v: 1 + weight (T (1 - f0 a - b) - 1), with the split-sum
@@ -39,10 +39,9 @@ fn coat_environment(p: Coat, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
 fn coat_base(p: Coat, n_dot_v: f32, dfg: vec2f) -> vec3f {
     let s = sqrt(clamp(p.f0, 0.0, 0.9));
     let inv_eta = (1.0 - s) / (1.0 + s);
-    let mu = saturate(n_dot_v);
-    let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - mu * mu);
-    let path = 1.0 / sqrt(max(cos2, 1e-4));
+    let cos2 = mix(1.0, n_dot_v * n_dot_v, inv_eta * inv_eta);
+    let path = inverseSqrt(max(cos2, 1e-4));
     let through = saturate(1.0 - p.f0 * dfg.x - dfg.y);
     let transmittance = exp2(log2(clamp(p.color, vec3f(COLOR_FLOOR), vec3f(1.0))) * path);
-    return 1.0 + saturate(p.weight) * (transmittance * through - 1.0);
+    return mix(vec3f(1.0), transmittance * through, saturate(p.weight));
 }

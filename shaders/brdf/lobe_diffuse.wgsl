@@ -12,10 +12,10 @@ struct Diffuse {
 fn diffuse_eval(frame: Frame, l: vec3f, p: Diffuse) -> vec3f {
     let h = half_from_light(frame, l);
     let brdf = diffuse_lambert(p.color, frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
-    return finite_or_zero(brdf * h.n_dot_l);
+    return brdf * h.n_dot_l;
 }
 
 /// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.
 fn diffuse_environment(p: Diffuse, irradiance_over_pi: vec3f) -> vec3f {
-    return finite_or_zero(p.color * irradiance_over_pi);
+    return p.color * irradiance_over_pi;
 }

@@ -29,11 +29,11 @@ fn multiscatter_eval(frame: Frame, l: vec3f, p: Multiscatter, dfg: vec2f) -> vec
     let n_dot_l = half_from_light(frame, l).n_dot_l;
     let shift = max(AVERAGE_LOSS_FLOOR - p.average_loss, 0.0);
     let product = (p.loss + shift) * (saturate(1.0 - dfg.x - dfg.y) + shift) / (p.average_loss + shift) - shift;
-    return finite_or_zero(p.color * (max(product, 0.0) * n_dot_l * INV_PI));
+    return p.color * (max(product, 0.0) * n_dot_l * INV_PI);
 }
 
 /// Radiance reflected from an environment: the lobe is wide and nearly Lambert's, so it is fed with the irradiance over pi.
 /// Exact for a uniform environment.
 fn multiscatter_environment(p: Multiscatter, irradiance_over_pi: vec3f) -> vec3f {
-    return finite_or_zero(p.color * p.loss * irradiance_over_pi);
+    return p.color * p.loss * irradiance_over_pi;
 }

@@ -15,11 +15,15 @@ struct Specular {
 ///
 /// V n.l is taken first: it is at most 1/2 / max(alpha, n.v), while V alone is infinite at n.l = n.v = 0.
 fn specular_eval(frame: Frame, l: vec3f, p: Specular) -> vec3f {
+    let f = f_schlick(p.f0, p.f90, half_from_light(frame, l).l_dot_h);
+    return f * specular_lit(frame, l, p);
+}
+
+/// specular_eval without its F: D V n.l.
+fn specular_lit(frame: Frame, l: vec3f, p: Specular) -> f32 {
     let h = half_from_light(frame, l);
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
-    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
-    let f = f_schlick(p.f0, p.f90, h.l_dot_h);
-    return finite_or_zero(f * (v * h.n_dot_l * d));
+    return v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha) * h.n_dot_l * d;
 }
 
 /// The direction, not unit, from which the lobe's light comes in the mean: `mirror_dir` leaning to the normal by
@@ -34,5 +38,5 @@ fn specular_direction(frame: Frame, mirror_dir: vec3f, perceptual_roughness: f32
 /// Karis 2013, Real Shading in Unreal Engine 4, the split sum: prefiltered radiance about the reflection times
 /// the lobe's directional albedo.
 fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg));
+    return prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg);
 }

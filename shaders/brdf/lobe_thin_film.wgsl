@@ -15,24 +15,24 @@ struct ThinFilm {
 /// What the film adds to the reflectance at the cosine l.h of a base of reflectances f0 and f90, in [-1, 1]:
 /// weight (f90 F_film - F(f0, f90)). For the light of a whole lobe it is added to both f0 and f90.
 fn thin_film_shift(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
+    return thin_film_fresnel(f0, f90, p, l_dot_h) - f_schlick(f0, f90, l_dot_h);
+}
+
+/// Reflectance at the cosine l.h, `p.weight` of the base under the film. It takes the place of F in a lobe lit from one
+/// direction.
+fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
     // ior_from_f0 of each channel.
     let s2 = clamp(f0 / max(f90, vec3f(F90_FLOOR)), vec3f(0.0), vec3f(F0_CEILING));
     let s = 1.0 + sqrt(s2);
-    let film = f_thin_film_dielectric(p.ior, p.thickness, s * s / (1.0 - s2), l_dot_h);
-    return saturate(p.weight) * (f90 * film - f_schlick(f0, f90, l_dot_h));
-}
-
-/// Reflectance at the cosine l.h, `p.weight` of the base under the film: F(f0, f90) + thin_film_shift. It takes the place of
-/// f0 and of f90 in a lobe lit from one direction.
-fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
-    return f_schlick(f0, f90, l_dot_h) + thin_film_shift(f0, f90, p, l_dot_h);
+    let film = f90 * f_thin_film_dielectric(p.ior, p.thickness, s * s / (1.0 - s2), l_dot_h);
+    return mix(f_schlick(f0, f90, l_dot_h), film, saturate(p.weight));
 }
 
 /// The cosine l.h at which Schlick's F is the lobe's mean, from the split-sum pair: b / (a + b) is the mean of
 /// (1 - l.h)^5. An environment meets the film at it; on a smooth surface it is n.v.
 fn thin_film_cosine(dfg: vec2f) -> f32 {
     let mean = clamp(dfg.y / max(dfg.x + dfg.y, 1e-6), 1e-30, 1.0);
-    return 1.0 - exp2(0.2 * log2(mean));
+    return 1.0 - pow(mean, 0.2);
 }
 
 /// What a film that adds `shift` to the reflectance changes of the light that passes the base: (1 - F - shift) / (1 - F), all

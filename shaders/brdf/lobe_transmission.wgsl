@@ -19,23 +19,22 @@ struct Transmission {
 /// color (1 - F) |v.h| |l.h| G D / (n.v (v.h + eta l.h)^2), equation 21 of the paper, over the index on the viewer's side.
 /// G = G1(v) G1(l), h = -(v + eta l) / |v + eta l| on the viewer's side. Total internal reflection gives 0.
 fn transmission_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
-    let sum = normalize_or(frame.view_dir + p.eta * l, vec3f(0.0));
-    let h = select(-sum, sum, dot(sum, frame.normal) > 0.0);
-    let v_dot_h = dot(frame.view_dir, h);
-    let l_dot_h = dot(l, h);
-    let sine = cross(frame.normal, h);
-    let n_dot_l = -dot(frame.normal, l);
-    let root = v_dot_h + p.eta * l_dot_h;
-    let d = d_ggx(dot(frame.normal, h), dot(sine, sine), p.alpha);
+    // h times |s|, of either sign: D over |s|^4 needs no |s|, and v.h + eta l.h is |s|.
+    let s = frame.view_dir + p.eta * l;
+    let n_dot_s = dot(frame.normal, s);
+    let v_dot_s = dot(frame.view_dir, s);
+    let l_dot_s = dot(l, s);
+    let sine = cross(frame.normal, s);
+    let width = n_dot_s * p.alpha;
+    let k = p.alpha / max(width * width + dot(sine, sine), JACOBIAN_FLOOR);
     // G / (n.v |n.l|) is four times V of Smith's separable form; times |n.l| it is finite at the horizon.
-    let a2 = p.alpha * p.alpha;
-    let front = max(n_dot_l, 0.0);
-    let view_lit = frame.n_dot_v + sqrt(a2 + (1.0 - a2) * frame.n_dot_v * frame.n_dot_v);
-    let light_lit = front + sqrt(a2 + (1.0 - a2) * front * front);
-    let g = 4.0 * front / max(view_lit * light_lit, 1e-36);
-    let f = f_dielectric(p.eta, v_dot_h);
-    let part = (1.0 - f) * d * g * v_dot_h * -l_dot_h / max(root * root, JACOBIAN_FLOOR);
-    return finite_or_zero(p.color * select(0.0, part, v_dot_h > 0.0 && l_dot_h < 0.0 && n_dot_l > 0.0));
+    let front = max(-dot(frame.normal, l), 0.0);
+    let g = 4.0 * INV_PI * front * v_smith_ggx_separable(frame.n_dot_v, front, 0.0, p.alpha);
+    let f = f_dielectric(p.eta, abs(v_dot_s) * inverseSqrt(max(dot(s, s), JACOBIAN_FLOOR)));
+    let part = (1.0 - f) * g * (k * v_dot_s) * (k * -l_dot_s);
+    // Both rays stand on their sides of the microfacet, and the light behind the surface.
+    let through = min(v_dot_s * n_dot_s, -l_dot_s * n_dot_s) > 0.0;
+    return p.color * select(0.0, part, through);
 }
 
 /// f0 of a surface of which `weight` is a sheet with two faces: all bounces between them together reflect 2 f / (1 + f),
@@ -49,7 +48,7 @@ fn f0_of_sheet(f0: f32, weight: f32) -> f32 {
 /// / (1 - 0.067 alpha), q = 1 - n.v: our own fit to quadrature for eta from 1 up.
 fn transmission_compensation(n_dot_v: f32, p: Transmission) -> f32 {
     let inv_eta = saturate(1.0 / max(p.eta, 1.0));
-    let q = 1.0 - saturate(n_dot_v);
+    let q = 1.0 - n_dot_v;
     let slope = 0.317 * (1.0 - inv_eta) + q * (0.361 - 0.335 * inv_eta + q * (1.405 * inv_eta - 0.456));
     return 1.0 / (1.0 - clamp(p.alpha * slope / (1.0 - 0.067 * p.alpha), 0.0, 0.85));
 }
@@ -62,7 +61,7 @@ fn transmission_thin_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
     let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
     let f = f_schlick(vec3f(f0_of_sheet(f0_from_ior(p.eta), 1.0)), vec3f(1.0), h.l_dot_h);
-    return finite_or_zero(p.color * (1.0 - f) * (v * h.n_dot_l * d));
+    return p.color * (1.0 - f) * (v * h.n_dot_l * d);
 }
 
 /// Factor on transmission_thin_eval that brings back what single scattering loses: with it a white sheet of reflectance f0
@@ -77,9 +76,13 @@ fn transmission_thin_compensation(f0: f32, dfg: vec2f) -> f32 {
 /// law; where it is totally reflected, the grazing ray.
 fn transmission_direction(frame: Frame, eta: f32) -> vec3f {
     let inv_eta = 1.0 / max(eta, 1e-6);
-    let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - frame.n_dot_v * frame.n_dot_v);
-    let along = inv_eta * frame.n_dot_v - sqrt(max(cos2, 0.0));
-    return normalize_or(frame.normal * along - frame.view_dir * inv_eta, -frame.normal);
+    let along = inv_eta * frame.n_dot_v - refracted_cosine(frame.n_dot_v, inv_eta);
+    return normalize(frame.normal * along - frame.view_dir * inv_eta);
+}
+
+/// The cosine of v refracted by the smooth surface, Snell's law; 0 where it is totally reflected.
+fn refracted_cosine(n_dot_v: f32, inv_eta: f32) -> f32 {
+    return sqrt(max(mix(1.0, n_dot_v * n_dot_v, inv_eta * inv_eta), 0.0));
 }
 
 /// One lookup of an environment through a surface.
@@ -96,11 +99,11 @@ struct TransmissionLookup {
 /// wide as a reflection's of alpha X / (2 sqrt(cos_t)). 0.45 in the place of 1/2 and the lean are fitted to the integral.
 fn transmission_lookup(frame: Frame, eta: f32, alpha: f32) -> TransmissionLookup {
     let leaning = frame.normal + alpha * (frame.view_dir - frame.n_dot_v * frame.normal);
-    let facet = frame_from_normal(normalize_or(leaning, frame.normal), frame.view_dir);
-    let dir = transmission_direction(facet, eta);
-    let cos_t = clamp(-dot(facet.normal, dir), 0.01, 1.0);
-    let turn = abs(cos_t - facet.n_dot_v / max(eta, 1e-6));
-    return TransmissionLookup(dir, sqrt(saturate(0.45 * alpha * turn / sqrt(cos_t))));
+    let facet = frame_from_normal(normalize(leaning), frame.view_dir);
+    let inv_eta = 1.0 / max(eta, 1e-6);
+    let cos_t = max(refracted_cosine(facet.n_dot_v, inv_eta), 0.01);
+    let turn = abs(cos_t - facet.n_dot_v * inv_eta);
+    return TransmissionLookup(transmission_direction(facet, eta), sqrt(saturate(0.45 * alpha * turn / sqrt(cos_t))));
 }
 
 /// Radiance that arrives through the surface from an environment: color (1 - f0 a - b) times the radiance of
@@ -108,5 +111,5 @@ fn transmission_lookup(frame: Frame, eta: f32, alpha: f32) -> TransmissionLookup
 /// f0.
 /// The compression by eta^2 is left out: a ray that enters a body leaves it again.
 fn transmission_environment(p: Transmission, f0: f32, transmitted_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(p.color * saturate(1.0 - f0 * dfg.x - dfg.y) * transmitted_radiance);
+    return p.color * saturate(1.0 - f0 * dfg.x - dfg.y) * transmitted_radiance;
 }

@@ -8,5 +8,5 @@ fn diffuse_color(base_color: vec3f, metallic: f32) -> vec3f {
 
 /// Reflectance at normal incidence: dielectric_f0 (1 - metallic) + base_color metallic.
 fn f0_from_metallic(base_color: vec3f, metallic: f32, dielectric_f0: f32) -> vec3f {
-    return vec3f(dielectric_f0 * (1.0 - metallic)) + base_color * metallic;
+    return mix(vec3f(dielectric_f0), base_color, metallic);
 }

@@ -16,13 +16,9 @@ const NEUBELT_FLOOR: f32 = 1e-36;
 fn d_charlie(n_dot_h: f32, sin2_theta_h: f32, alpha: f32) -> f32 {
     let exponent = 1.0 / max(alpha, CHARLIE_ALPHA_FLOOR);
     let x = n_dot_h * n_dot_h;
-    let rest = max(1.0 - x, 0.25);
-    let is_1 = rest >= 1.0;
-    let slope = log2(rest) / select(rest - 1.0, -1.0, is_1);
-    let near_1 = -x * select(slope, 1.44269504088896340736, is_1);
-    let log2_sin2 = select(log2(max(sin2_theta_h, SIN2_FLOOR)), near_1, x < 0.5);
-    let power = exp2(0.5 * exponent * log2_sin2);
-    return select(0.0, (2.0 + exponent) * power * (0.5 * INV_PI), sin2_theta_h > 0.0);
+    let rest = 1.0 - x;
+    let log2_sin2 = log2(select(max(sin2_theta_h, SIN2_FLOOR), rest, x < 0.5)) + 1.44269504088896340736 * ((1.0 - rest) - x);
+    return (2.0 + exponent) * exp2(0.5 * exponent * log2_sin2) * (0.5 * INV_PI);
 }
 
 /// Neubelt and Pettineo 2013, Crafting a Next-Gen Material Pipeline for The Order: 1886: V = 1 / (4 (n.l + n.v - n.l n.v)).

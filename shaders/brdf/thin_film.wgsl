@@ -68,52 +68,53 @@ fn f_thin_film(film_ior: f32, thickness: f32, base_eta: vec3f, base_k: vec3f, co
 /// f_thin_film on a dielectric base, of index `base_eta` from 1 up: all amplitudes are real there, which is a third of the
 /// work.
 fn f_thin_film_dielectric(film_ior: f32, thickness: f32, base_eta: vec3f, cos_theta: f32) -> vec3f {
-    let c1 = clamp(cos_theta, 0.0, 1.0);
+    // Above 0, and so is every denominator.
+    let c1 = clamp(cos_theta, 1e-6, 1.0);
     let depth = clamp(thickness, 0.0, THICKNESS_CEILING);
     let present = min(depth * (1.0 / FADE_THICKNESS), 1.0);
     let fade = present * present * (3.0 - 2.0 * present);
     let ior = 1.0 + fade * (clamp(film_ior, FILM_IOR_FLOOR, FILM_IOR_CEILING) - 1.0);
-    let q2 = (ior - 1.0) * (ior + 1.0) + c1 * c1;
-    let q = sqrt(max(q2, 0.0));
+    // 0 where the film reflects all: then nothing is lost below.
+    let q = sqrt(max((ior - 1.0) * (ior + 1.0) + c1 * c1, 0.0));
+    let tones = film_real_tones(2.0 * depth * q);
     let ior2 = ior * ior;
-    let path = 2.0 * depth * q;
-    let one = film_tone(path);
-    let two = film_tone(2.0 * path);
-    let three = film_tone(3.0 * path);
     let n = clamp(base_eta, vec3f(1.0), vec3f(BASE_IOR_CEILING));
-    let n2 = n * n;
     let a = sqrt((n - 1.0) * (n + 1.0) + c1 * c1);
-    let r12_s = (c1 - q) / max(c1 + q, FILM_FLOOR);
-    let r12_p = (ior2 * c1 - q) / max(ior2 * c1 + q, FILM_FLOOR);
-    let r23_s = (q - a) / max(q + a, vec3f(FILM_FLOOR));
-    let r23_p = (n2 * q - ior2 * a) / max(n2 * q + ior2 * a, vec3f(FILM_FLOOR));
-    let both = film_sum(r12_s, r23_s, one, two, three) + film_sum(r12_p, r23_p, one, two, three);
-    return select(clamp(0.5 * both, vec3f(0.0), vec3f(1.0)), vec3f(1.0), q2 < 0.0);
+    return saturate(1.0 - (film_loss(q, c1, a, tones) + film_loss(q, ior2 * c1, ior2 * a / (n * n), tones)));
 }
 
-/// The real part of each channel's response to exp(i k `path`): film_tones by dot products over four of the five lobes.
-fn film_tone(path: f32) -> vec3f {
+/// The real parts of film_tones, a column for each order: five Gaussians at three orders as four vectors.
+fn film_real_tones(path: f32) -> mat3x3f {
     let centres = vec4f(0.010258501116189029, 0.010910616526684985, 0.01405857181573468, 0.011209009787066005);
-    let deviations = vec4f(0.0004333990052411747, 0.0005365664975144916, 0.0006182748601196432, 0.0008357307798945551);
-    let spread = path * deviations;
-    // Half of log2(e).
-    let e = exp2(-0.72134752044448170368 * spread * spread) * cos(path * centres);
-    let last_spread = 0.0007077886426635069 * path;
-    let last = exp2(-0.72134752044448170368 * last_spread * last_spread) * cos(0.013915925235247472 * path);
-    return last * vec3f(-0.542815912, 0.045247421, 1.151138518) + vec3f(
-        dot(e, vec4f(1.341800362, 1.218921421, 0.519232538, -1.537138409)),
-        dot(e, vec4f(-0.401351635, -0.364596791, -0.155309862, 1.876010867)),
-        dot(e, vec4f(0.023040702, 0.020930688, 0.008915993, -0.204025901)),
+    let last_centre = vec3f(0.013915925235247472, 0.027831850470494944, 0.041747775705742416);
+    // Minus half of log2(e), times the squares of the deviations.
+    let spreads = vec4f(-1.3549409347110175e-7, -2.0767855249904617e-7, -2.757450462015585e-7, -5.038222444322254e-7);
+    let last_spread = vec3f(-3.6136968939176454e-7, -1.4454787575670581e-6, -3.2523272045258807e-6);
+    let weights = mat4x3f(
+        1.341800362, -0.401351635, 0.023040702,
+        1.218921421, -0.364596791, 0.020930688,
+        0.519232538, -0.155309862, 0.008915993,
+        -1.537138409, 1.876010867, -0.204025901,
     );
+    let last_weight = vec3f(-0.542815912, 0.045247421, 1.151138518);
+    let path2 = path * path;
+    let last = exp2(path2 * last_spread) * cos(path * last_centre);
+    let one = weights * (exp2(path2 * spreads) * cos(path * centres));
+    let two = weights * (exp2(path2 * (4.0 * spreads)) * cos(path * (2.0 * centres)));
+    let three = weights * (exp2(path2 * (9.0 * spreads)) * cos(path * (3.0 * centres)));
+    return mat3x3f(one + last.xxx * last_weight, two + last.yyy * last_weight, three + last.zzz * last_weight);
 }
 
-/// Airy's sum of one polarisation with real amplitudes, as film_series.
-fn film_sum(r12: f32, r23: vec3f, one: vec3f, two: vec3f, three: vec3f) -> vec3f {
-    let z = -r12 * r23;
-    let t = 1.0 - r12 * r12;
-    let c = t * t * r23 * r23 / max(1.0 - z * z, vec3f(FILM_FLOOR));
-    let sum = z * (one + z * (two + z * three));
-    return r12 * r12 + c + 2.0 * (c - t) * sum;
+/// What one polarisation does not reflect of its half of the light, (1 - R)/2 of film_series with the real amplitudes
+/// -r12 = (q - c)/(q + c) and r23 = (q - a)/(q + a). With m = q^2 + c a and s = q (c + a) it is
+/// 4 q c a / (m (c + a)) (1/2 + sum over j of z^j Re(..)), z = (m - s)/(m + s).
+fn film_loss(q: f32, c: f32, a: vec3f, tones: mat3x3f) -> vec3f {
+    let ca = c * a;
+    let sum = c + a;
+    let m = q * q + ca;
+    let s = q * sum;
+    let z = (m - s) / (m + s);
+    return 4.0 * q * ca / (m * sum) * (0.5 + z * (tones[0] + z * (tones[1] + z * tones[2])));
 }
 
 /// Each channel's response to exp(i m k `path`), m = 1..3.

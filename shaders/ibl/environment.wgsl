@@ -10,9 +10,9 @@ fn rotate_about_y(dir: vec3f, cos_sin: vec2f) -> vec3f {
 /// Level that holds a perceptual roughness when level 0 is the unfiltered environment, level 1 is prefiltered for 0.1, the
 /// last for 1, and each between them for the same multiple of the one before.
 fn lod_geometric(perceptual_roughness: f32, levels: f32) -> f32 {
-    let above = 1.0 + (levels - 2.0) * (log2(max(10.0 * perceptual_roughness, 1.0)) / log2(10.0));
-    let below = 10.0 * perceptual_roughness;
-    return min(select(above, below, below < 1.0), levels - 1.0);
+    let place = 10.0 * perceptual_roughness;
+    let above = (levels - 2.0) * (log2(max(place, 1.0)) / log2(10.0));
+    return min(min(place, 1.0) + above, levels - 1.0);
 }
 
 /// Level that holds a perceptual roughness when level i of n is prefiltered for i / (n - 1).
@@ -35,13 +35,14 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 /// as a derivative; `t` is 0 at `near` and 1 at `far`.
 /// Where a lobe meets a lamp the light goes with a power of its width, falling in the middle and rising outside, so that
 /// logarithms are mixed: of the colours linearly, and of their sum by Hermite's cubic, which also follows the slopes.
-/// 1e-7, less than half precision resolves, keeps black finite.
+/// Black is taken as 1e-7, about the least that half precision holds.
 fn mix_levels(near: vec4f, far: vec4f, t: f32) -> vec3f {
-    let tiny = 1e-7;
     let one = vec3f(1.0);
-    let rise = log2((dot(far.rgb, one) + tiny) / (dot(near.rgb, one) + tiny));
-    let bend = t * (1.0 - t) * ((1.0 - t) * (near.a - rise) - t * (far.a - rise));
-    return max(exp2(mix(log2(near.rgb + tiny), log2(far.rgb + tiny), t) + bend) - tiny, vec3f(0.0));
+    let n = max(near.rgb, vec3f(1e-7));
+    let f = max(far.rgb, vec3f(1e-7));
+    let rise = log2(dot(f, one) / dot(n, one));
+    let bend = t * (1.0 - t) * mix(near.a - rise, rise - far.a, t);
+    return pow(f / n, vec3f(t)) * n * exp2(bend);
 }
 
 /// Radiance that arrives from a direction, prefiltered as much as the level says, from levels with slopes: see
@@ -69,11 +70,11 @@ fn irradiance_sh2(coefficients: array<vec4f, 9>, dir: vec3f) -> vec3f {
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
+    let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }

@@ -3,8 +3,7 @@
 
 /// 0 below -width, 1 above width, a cubic step between.
 fn smooth_step_about_zero(x: f32, width: f32) -> f32 {
-    let t = saturate(0.5 + 0.5 * x / width);
-    return t * t * (3.0 - 2.0 * t);
+    return smoothstep(-width, width, x);
 }
 
 /// The part of the specular lobe that a cone about the normal leaves. `occlusion` is the open part of the cosine-weighted

@@ -5,9 +5,14 @@
 /// `flip_y`. A texel that says nothing, such as (.5, .5, .5), is straight up. Read as unorm: 8-bit (128, 128, 255) leans
 /// by 0.32 degrees.
 fn normal_from_texel(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
-    let t = 2.0 * color - 1.0;
+    return normalize_or(tilt_from_texel(color, strength, flip_y), vec3f(0.0, 0.0, 1.0));
+}
+
+/// normal_from_texel before it is made unit; zero for a texel that says nothing.
+fn tilt_from_texel(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
+    let t = fma(color, vec3f(2.0), vec3f(-1.0));
     let y = select(t.y, -t.y, flip_y);
-    return normalize_or(vec3f(t.x * strength, y * strength, t.z), vec3f(0.0, 0.0, 1.0));
+    return vec3f(t.x * strength, y * strength, t.z);
 }
 
 /// A unit tangent of any unit normal, without a pole. Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin 2017,
@@ -22,17 +27,21 @@ fn tangent_from_normal(normal: vec3f) -> vec3f {
 /// Normal mapping by tangent frame. Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited": with N and T as they
 /// come interpolated, not made orthonormal again, and w the handedness (+-1 in `tangent.w`),
 ///   B = w cross(N, T),   n = normalize(t.x T + t.y B + t.z N)
-/// A tangent that is zero or along N is replaced by a tangent of N alone (`tangent_from_normal`); a zero normal is +Z.
+/// A tangent that is zero or along N is replaced by any across N; a zero normal is +Z.
 fn normal_tbn(n_tangent: vec3f, normal: vec3f, tangent: vec4f) -> vec3f {
     let unit_normal = normalize_or(normal, vec3f(0.0, 0.0, 1.0));
-    let across = cross(normal, tangent.xyz);
+    return bent_normal(n_tangent, select(unit_normal, normal, dot(normal, normal) > 0.0), unit_normal, tangent);
+}
+
+/// normal_tbn of a direction `n_tangent` of any length, zero being straight up, where the unit normal is known.
+fn bent_normal(n_tangent: vec3f, normal: vec3f, unit_normal: vec3f, tangent: vec4f) -> vec3f {
+    let across = cross(unit_normal, tangent.xyz);
     // |N x T| <= 1e-6 |N| |T|: the direction of B would be rounding noise, or 0 / 0.
-    let usable = dot(across, across) > 1e-12 * dot(normal, normal) * dot(tangent.xyz, tangent.xyz);
-    let fallback = tangent_from_normal(unit_normal);
-    let t = select(fallback, tangent.xyz, usable);
-    let b = select(cross(unit_normal, fallback), select(across, -across, tangent.w < 0.0), usable);
+    let usable = dot(across, across) > 1e-12 * dot(tangent.xyz, tangent.xyz);
+    let t = select(any_tangent(unit_normal), tangent.xyz, usable);
     let n = select(unit_normal, normal, usable);
-    return normalize_or(n_tangent.x * t + n_tangent.y * b + n_tangent.z * n, unit_normal);
+    let b = f32(select(1.0, -1.0, tangent.w < 0.0)) * cross(n, t);
+    return normalize_or(mat3x3f(t, b, n) * n_tangent, unit_normal);
 }
 
 // (cos, sin) of atan2(y, x), without the angle: (x, y) / |(x, y)|. Both zero is the angle 0.

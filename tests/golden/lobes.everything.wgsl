@@ -13,8 +13,8 @@
 struct View {
     clip_from_world: mat4x4f,
     camera_position: vec3f,
-    exposure: f32,
     environment_rotation: vec2f,
+    exposure: f32,
     environment_levels: f32,
 }
 @group(0) @binding(0) var<uniform> view: View;
@@ -88,7 +88,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         let light = directional_light_sample(lights.directional[i], in.world_position);
         let light_film = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, half_from_light(frame, light.dir).l_dot_h);
         radiance += diffuse_eval(frame, light.dir, diffuse) * under_layers * light.illuminance;
-        radiance += anisotropic_eval(frame, light.dir, Anisotropic(light_film, light_film, tangent, alphas.x, alphas.y)) * compensation * under_layers * light.illuminance;
+        radiance += anisotropic_lit(frame, light.dir, specular) * light_film * compensation * under_layers * light.illuminance;
         radiance += transmission_eval(frame, light.dir, transmission) * transmission_gain * under_layers * light.illuminance;
         radiance += coat_eval(frame, light.dir, coat) * under_sheen * light.illuminance;
         radiance += sheen_eval(frame, light.dir, sheen) * light.illuminance;
@@ -96,7 +96,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let point_light = point_light_sample(lights.point, in.world_position);
     let point_light_film = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, half_from_light(frame, point_light.dir).l_dot_h);
     radiance += diffuse_eval(frame, point_light.dir, diffuse) * under_layers * point_light.illuminance;
-    radiance += anisotropic_eval(frame, point_light.dir, Anisotropic(point_light_film, point_light_film, tangent, alphas.x, alphas.y)) * compensation * under_layers * point_light.illuminance;
+    radiance += anisotropic_lit(frame, point_light.dir, specular) * point_light_film * compensation * under_layers * point_light.illuminance;
     radiance += transmission_eval(frame, point_light.dir, transmission) * transmission_gain * under_layers * point_light.illuminance;
     radiance += coat_eval(frame, point_light.dir, coat) * under_sheen * point_light.illuminance;
     radiance += sheen_eval(frame, point_light.dir, sheen) * point_light.illuminance;
@@ -104,7 +104,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         let light = spot_light_sample(lights.spot[i], in.world_position);
         let light_film = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, half_from_light(frame, light.dir).l_dot_h);
         radiance += diffuse_eval(frame, light.dir, diffuse) * under_layers * light.illuminance;
-        radiance += anisotropic_eval(frame, light.dir, Anisotropic(light_film, light_film, tangent, alphas.x, alphas.y)) * compensation * under_layers * light.illuminance;
+        radiance += anisotropic_lit(frame, light.dir, specular) * light_film * compensation * under_layers * light.illuminance;
         radiance += transmission_eval(frame, light.dir, transmission) * transmission_gain * under_layers * light.illuminance;
         radiance += coat_eval(frame, light.dir, coat) * under_sheen * light.illuminance;
         radiance += sheen_eval(frame, light.dir, sheen) * light.illuminance;
@@ -122,11 +122,12 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let transmitted = environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(behind.dir, view.environment_rotation), lod_geometric(behind.perceptual_roughness, view.environment_levels));
     radiance += transmission_environment(transmission, 0.040000003, transmitted, dfg) * under_layers;
     let coat_mirror_dir = reflect(-frame.view_dir, frame.normal);
-    let coat_reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(specular_direction(frame, coat_mirror_dir, 0.1), view.environment_rotation), lod_geometric(0.1, view.environment_levels));
+    let coat_reflection = environment_sample(prefiltered_radiance, linear_clamp, rotate_about_y(specular_direction(frame, coat_mirror_dir, 0.1), view.environment_rotation), lod_geometric(0.1, view.environment_levels));
     radiance += coat_environment(coat, coat_reflection, coat_dfg) * under_sheen;
     let sheen_around = environment_sample(irradiance_over_pi, linear_clamp, rotate_about_y(sheen_direction(frame), view.environment_rotation), 0.0);
     let sheen_middle = environment_sample(prefiltered_radiance, linear_clamp, rotate_about_y(frame.normal, view.environment_rotation), view.environment_levels - 2.0);
     radiance += sheen_environment(sheen, frame.n_dot_v, sheen_ring(sheen, sheen_around, sheen_middle));
+    radiance = finite_or_zero(radiance);
     let display = srgb_from_linear(tone_map_pbr_neutral(radiance * view.exposure));
     return vec4f(display, 1.0);
 }
@@ -167,7 +168,7 @@ const ARRIVING: f32 = 0.9975;
 
 /// coupling_compensated of each channel: an interface under a film.
 fn coupling_colored(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
-    let average = f0 + (f90 - f0) * (1.0 / 21.0);
+    let average = mix(f0, f90, 1.0 / 21.0);
     let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
     return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
 }
@@ -205,14 +206,15 @@ struct Half {
     l_dot_h: f32,
     /// sin^2 of the angle between n and h, as |n x h|^2.
     sin2_theta_h: f32,
+    /// h, unit; zero where there is none.
+    h: vec3f,
 }
 
 /// The frame of a unit shading normal and a unit direction to the viewer, with n.v held in [N_DOT_V_FLOOR, 1].
 ///
 /// NaN in either gives n_dot_v = N_DOT_V_FLOOR.
 fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
-    let n_dot_v = dot(normal, view_dir);
-    return Frame(normal, view_dir, select(N_DOT_V_FLOOR, min(n_dot_v, 1.0), n_dot_v > N_DOT_V_FLOOR));
+    return Frame(normal, view_dir, clamp(dot(normal, view_dir), N_DOT_V_FLOOR, 1.0));
 }
 
 /// The half vector of the unit direction `dir` to a light.
@@ -222,7 +224,6 @@ fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
 /// below an angle of 3e-4, and v.h by a dot product none where l is opposite to v.
 /// Where v + l = 0 there is no half vector: l.h = n.h = 0 and sin^2 = 1, which is h in the tangent plane.
 fn half_from_light(frame: Frame, dir: vec3f) -> Half {
-    let n_dot_l = dot(frame.normal, dir);
     let sum = frame.view_dir + dir;
     let length2 = dot(sum, sum);
     let has_half = length2 > LENGTH2_FLOOR;
@@ -230,10 +231,11 @@ fn half_from_light(frame: Frame, dir: vec3f) -> Half {
     let h = sum * inv_length;
     let sine = cross(frame.normal, h);
     return Half(
-        select(0.0, min(n_dot_l, 1.0), n_dot_l > 0.0),
+        saturate(dot(frame.normal, dir)),
         dot(frame.normal, h),
         0.5 * length2 * inv_length,
         select(1.0, dot(sine, sine), has_half),
+        h,
     );
 }
 
@@ -255,7 +257,7 @@ const COSINE_SUM_FLOOR: f32 = 1e-18;
 /// Schlick 1994, An Inexpensive BRDF Model for Physically-based Rendering:
 /// F = f0 + (f90 - f0) (1 - l.h)^5.
 fn f_schlick(f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
-    return f0 + (f90 - f0) * pow5(clamp(1.0 - l_dot_h, 0.0, 1.0));
+    return mix(f0, f90, pow5(max(1.0 - l_dot_h, 0.0)));
 }
 
 /// Fresnel's equations, unpolarised light, real index `eta` = inside over outside, cosine on the outside:
@@ -268,12 +270,12 @@ fn f_dielectric(eta: f32, cos_theta: f32) -> f32 {
     let c = clamp(cos_theta, 0.0, 1.0);
     let n = min(eta, ETA_CEILING);
     let e = (n - 1.0) * (n + 1.0);
-    let g2 = e + c * c;
-    let g = sqrt(max(g2, 0.0));
+    let g = sqrt(max(e + c * c, 0.0));
     let sum = max(g + c, COSINE_SUM_FLOOR);
     let r_s = e / (sum * sum);
     let r_p = r_s * sum * (c * sum - 1.0) / max(n * n * c + g, COSINE_SUM_FLOOR);
-    return select(0.5 * (r_s * r_s + r_p * r_p), 1.0, g2 < 0.0);
+    // Where all is reflected both are 1 or more.
+    return min(0.5 * (r_s * r_s + r_p * r_p), 1.0);
 }
 
 // ---- brdf/ggx.wgsl
@@ -293,7 +295,7 @@ const V_FLOOR: f32 = 1e-36;
 ///
 /// Held in [0, 1]; NaN gives 1.
 fn alpha_from_perceptual_roughness(perceptual_roughness: f32) -> f32 {
-    let r = select(1.0, max(perceptual_roughness, 0.0), perceptual_roughness < 1.0);
+    let r = saturate(perceptual_roughness);
     return r * r;
 }
 
@@ -313,9 +315,18 @@ fn d_ggx(n_dot_h: f32, sin2_theta_h: f32, alpha: f32) -> f32 {
 /// V = 1/2 / (n.l sqrt(alpha^2 + (1 - alpha^2)(n.v)^2) + n.v sqrt(alpha^2 + (1 - alpha^2)(n.l)^2)).
 fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
-    let view = n_dot_l * sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v);
-    let light = n_dot_v * sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l);
+    let view = n_dot_l * sqrt(mix(n_dot_v * n_dot_v, 1.0, a2));
+    let light = n_dot_v * sqrt(mix(n_dot_l * n_dot_l, 1.0, a2));
     return 0.5 / max(view + light, V_FLOOR);
+}
+
+/// Walter et al. 2007: G = G1(v) G1(l), G1(w) = 2 n.w / (n.w + sqrt(alpha^2 + (1 - alpha^2)(n.w)^2)), over 4 n.l n.v:
+/// V = 1 / ((n.v + sqrt(alpha^2 + (1 - alpha^2)(n.v)^2)) (n.l + sqrt(alpha^2 + (1 - alpha^2)(n.l)^2))).
+fn v_smith_ggx_separable(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
+    let a2 = alpha * alpha;
+    let view = n_dot_v + sqrt(mix(n_dot_v * n_dot_v, 1.0, a2));
+    let light = n_dot_l + sqrt(mix(n_dot_l * n_dot_l, 1.0, a2));
+    return 1.0 / max(view * light, V_FLOOR);
 }
 
 // ---- brdf/lobe_anisotropic.wgsl
@@ -342,33 +353,32 @@ fn anisotropic_alphas_gltf(perceptual_roughness: f32, anisotropy: f32) -> vec2f 
     let r = saturate(perceptual_roughness);
     let strength = saturate(anisotropy);
     let alpha = r * r;
-    return vec2f(alpha + (1.0 - alpha) * strength * strength, alpha);
+    return vec2f(mix(alpha, 1.0, strength * strength), alpha);
 }
 
 /// The unit direction across `normal` along which a surface is brushed: the mesh's tangent (w is the handedness of its
 /// bitangent), made perpendicular to the shading normal and turned by `rotation` [rad] towards the bitangent, as
 /// KHR_materials_anisotropy (Khronos 2023) counts it. A tangent of zero or along the normal is replaced by any other.
 fn anisotropic_tangent(normal: vec3f, tangent: vec4f, rotation: f32) -> vec3f {
-    let aside = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.x) > 0.7);
-    let other = normalize_or(aside - normal * dot(normal, aside), aside);
-    let t = normalize_or(tangent.xyz - normal * dot(normal, tangent.xyz), other);
-    let across = cross(normal, t);
-    let bitangent = select(across, -across, tangent.w < 0.0);
-    return cos(rotation) * t + sin(rotation) * bitangent;
+    let t = tangent_across(normal, tangent);
+    let side = select(sin(rotation), -sin(rotation), tangent.w < 0.0);
+    return cos(rotation) * t + side * cross(normal, t);
 }
 
-/// D V F times n.l for the unit direction `l` to a light, in 1/sr; 0 where the light is behind the surface.
-fn anisotropic_eval(frame: Frame, l: vec3f, p: Anisotropic) -> vec3f {
+/// anisotropic_tangent for the rotation 0.
+fn tangent_across(normal: vec3f, tangent: vec4f) -> vec3f {
+    return normalize_or(tangent.xyz - normal * dot(normal, tangent.xyz), any_tangent(normal));
+}
+
+/// anisotropic_eval without its F: D V n.l.
+fn anisotropic_lit(frame: Frame, l: vec3f, p: Anisotropic) -> f32 {
     let half = half_from_light(frame, l);
-    let bitangent = cross(frame.normal, p.tangent);
-    let h = normalize_or(frame.view_dir + l, vec3f(0.0));
-    let h_in_tangent = vec3f(dot(p.tangent, h), dot(bitangent, h), half.n_dot_h);
-    let view = vec3f(dot(p.tangent, frame.view_dir), dot(bitangent, frame.view_dir), frame.n_dot_v);
-    let light = vec3f(dot(p.tangent, l), dot(bitangent, l), half.n_dot_l);
-    let d = d_ggx_anisotropic(h_in_tangent, p.alpha_t, p.alpha_b);
-    let v = v_smith_ggx_anisotropic(view, light, p.alpha_t, p.alpha_b);
-    let f = f_schlick(p.f0, p.f90, half.l_dot_h);
-    return finite_or_zero(f * (v * half.n_dot_l * d));
+    let world_from_tangent = mat3x3f(p.tangent, cross(frame.normal, p.tangent), frame.normal);
+    // Of v only n.v is held, as in the frame.
+    let view = max(frame.view_dir * world_from_tangent, vec3f(-1.0, -1.0, N_DOT_V_FLOOR));
+    let light = l * world_from_tangent;
+    let d = d_ggx_anisotropic(half.h * world_from_tangent, p.alpha_t, p.alpha_b);
+    return v_smith_ggx_anisotropic(view, light, p.alpha_t, p.alpha_b) * half.n_dot_l * d;
 }
 
 /// One of the lookups of an environment that stand for an anisotropic highlight.
@@ -389,32 +399,29 @@ struct AnisotropicStrip {
 /// along the strips, and 0.2 of the gap to the next one. Constants are our own; the weight is n.l (Karis 2013).
 fn anisotropic_strip(frame: Frame, tangent: vec3f, alpha_t: f32, alpha_b: f32, index: f32) -> AnisotropicStrip {
     let spread2 = max(alpha_t * alpha_t - alpha_b * alpha_b, 0.0);
-    let spread = sqrt(spread2);
     let apart = spread2 / max(alpha_t * alpha_t, 1e-18);
-    let x = (2.0 * index + 1.0) / f32(ANISOTROPIC_STRIPS) - 1.0;
+    let along = dot(frame.view_dir, tangent);
+    let x = (2.0 / f32(ANISOTROPIC_STRIPS)) * index + (1.0 / f32(ANISOTROPIC_STRIPS) - 1.0);
     let widening2 = 1.0 / (1.0 - x * x);
-    let widening = sqrt(widening2);
-    let slope = spread * x * widening;
-    let cos_h = 1.0 / sqrt(1.0 + slope * slope);
-    let h = (frame.normal + slope * tangent) * cos_h;
-    let axis = (tangent - slope * frame.normal) * cos_h;
-    let v_dot_h = dot(frame.view_dir, h);
-    let dir = 2.0 * v_dot_h * h - frame.view_dir;
-    let lean = dot(frame.view_dir, axis);
-    let aside = dot(frame.view_dir, cross(frame.normal, tangent));
-    let across = 1.0 + (sqrt(max(1.0 - lean * lean, 1e-4)) - 1.0) * apart;
-    let gap2 = spread2 * widening2 * widening2 * widening2 * (cos_h * cos_h) * max(1.0 - aside * aside, 1e-4);
-    let width2 = alpha_b * alpha_b * (1.0 + (widening2 - 1.0) * apart) * across * across;
+    let slope = x * sqrt(spread2 * widening2);
+    let cos_h = inverseSqrt(1.0 + slope * slope);
+    let dir = reflect(-frame.view_dir, (frame.normal + slope * tangent) * cos_h);
+    let lean = (along - slope * frame.n_dot_v) * cos_h;
+    let across = alpha_b * mix(1.0, sqrt(max(1.0 - lean * lean, 1e-4)), apart);
+    // 1 less the square of what of v lies across the strips.
+    let aside = along * along + frame.n_dot_v * frame.n_dot_v;
+    let gap = widening2 * cos_h;
     // 0.2 of the gap 2 / ANISOTROPIC_STRIPS in x, squared.
-    let alpha2 = (width2 + 0.0064 * gap2) * (cos_h * cos_h);
-    let weight = select(1e-3, max(dot(frame.normal, dir), 1e-3), v_dot_h > 0.0);
-    return AnisotropicStrip(dir, sqrt(sqrt(min(alpha2, 1.0))), weight);
+    let gap2 = 0.0064 * gap * gap * widening2 * (spread2 * aside);
+    let alpha2 = (across * across * mix(1.0, widening2, apart) + gap2) * (cos_h * cos_h);
+    // Where v.h < 0, n.l is, too.
+    return AnisotropicStrip(dir, sqrt(sqrt(min(alpha2, 1.0))), max(dot(frame.normal, dir), 1e-3));
 }
 
 /// Karis 2013, the split sum: prefiltered radiance of anisotropic_strip or of anisotropic_reflection times the lobe's directional albedo, taken as
 /// that of the width sqrt(alpha_t alpha_b).
 fn anisotropic_environment(p: Anisotropic, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(prefiltered_radiance * (p.f0 * dfg.x + p.f90 * dfg.y));
+    return prefiltered_radiance * (p.f0 * dfg.x + p.f90 * dfg.y);
 }
 
 // ---- brdf/lobe_coat.wgsl
@@ -441,13 +448,13 @@ fn coat_eval(frame: Frame, l: vec3f, p: Coat) -> vec3f {
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
     let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
     let f = f_schlick(vec3f(p.f0), vec3f(1.0), h.l_dot_h);
-    return finite_or_zero(f * (p.weight * (v * h.n_dot_l * d)));
+    return f * (p.weight * (v * h.n_dot_l * d));
 }
 
 /// Radiance that the coat reflects from an environment: `prefiltered_radiance` about its reflection at the coat's
 /// roughness, times weight (f0 a + b) for the split-sum pair `dfg` at the coat's roughness.
 fn coat_environment(p: Coat, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(prefiltered_radiance * (p.weight * (p.f0 * dfg.x + dfg.y)));
+    return prefiltered_radiance * (p.weight * (p.f0 * dfg.x + dfg.y));
 }
 
 /// What the base keeps of its own light below the coat, seen at n.v: 1 + weight (T (1 - f0 a - b) - 1), with the split-sum
@@ -457,12 +464,11 @@ fn coat_environment(p: Coat, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
 fn coat_base(p: Coat, n_dot_v: f32, dfg: vec2f) -> vec3f {
     let s = sqrt(clamp(p.f0, 0.0, 0.9));
     let inv_eta = (1.0 - s) / (1.0 + s);
-    let mu = saturate(n_dot_v);
-    let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - mu * mu);
-    let path = 1.0 / sqrt(max(cos2, 1e-4));
+    let cos2 = mix(1.0, n_dot_v * n_dot_v, inv_eta * inv_eta);
+    let path = inverseSqrt(max(cos2, 1e-4));
     let through = saturate(1.0 - p.f0 * dfg.x - dfg.y);
     let transmittance = exp2(log2(clamp(p.color, vec3f(COLOR_FLOOR), vec3f(1.0))) * path);
-    return 1.0 + saturate(p.weight) * (transmittance * through - 1.0);
+    return mix(vec3f(1.0), transmittance * through, saturate(p.weight));
 }
 
 // ---- brdf/lobe_diffuse.wgsl
@@ -479,12 +485,12 @@ struct Diffuse {
 fn diffuse_eval(frame: Frame, l: vec3f, p: Diffuse) -> vec3f {
     let h = half_from_light(frame, l);
     let brdf = diffuse_lambert(p.color, frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
-    return finite_or_zero(brdf * h.n_dot_l);
+    return brdf * h.n_dot_l;
 }
 
 /// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.
 fn diffuse_environment(p: Diffuse, irradiance_over_pi: vec3f) -> vec3f {
-    return finite_or_zero(p.color * irradiance_over_pi);
+    return p.color * irradiance_over_pi;
 }
 
 // ---- brdf/lobe_sheen.wgsl
@@ -512,13 +518,12 @@ struct Sheen {
 fn sheen_albedo(n_dot_w: f32, perceptual_roughness: f32) -> f32 {
     let r = clamp(perceptual_roughness, SHEEN_ROUGHNESS_FLOOR, 1.0);
     let inv_r = 1.0 / r;
-    let mu = saturate(n_dot_w);
     let at_grazing = (0.347 + r * (0.1492 + r * 0.1148)) * inv_r;
-    let b = 0.7769 + 1.4284 * inv_r;
-    let c = 0.9992 + 1.1096 * inv_r;
-    let d = 0.2518 + inv_r * (0.9523 + 0.1776 * inv_r);
-    // log2(e) = 1.4426950408889634
-    return at_grazing * exp2(-1.4426950408889634 * mu * (b - mu * (c - mu * d)));
+    // Each coefficient times log2(e).
+    let b = 1.1208297772666358 + 2.0607455964057952 * inv_r;
+    let c = 1.441540884856252 + 1.6008144173703938 * inv_r;
+    let d = 0.36327061129584104 + inv_r * (1.37387848743856 + 0.25622263926187994 * inv_r);
+    return at_grazing * exp2(-n_dot_w * (b - n_dot_w * (c - n_dot_w * d)));
 }
 
 /// BRDF times n.l for the unit direction `l` to a light, color D V n.l / max(1, 1.06 E(v), 1.06 E(l)) in 1/sr; 0 where the
@@ -528,8 +533,8 @@ fn sheen_eval(frame: Frame, l: vec3f, p: Sheen) -> vec3f {
     let r = clamp(p.perceptual_roughness, SHEEN_ROUGHNESS_FLOOR, 1.0);
     let d = d_charlie(h.n_dot_h, h.sin2_theta_h, r * r);
     let v = v_neubelt(frame.n_dot_v, h.n_dot_l, h.l_dot_h, r * r);
-    let most = max(sheen_albedo(frame.n_dot_v, r), sheen_albedo(h.n_dot_l, r)) * SHEEN_MARGIN;
-    return finite_or_zero(p.color * (v * h.n_dot_l * d / max(most, 1.0)));
+    let most = max(sheen_albedo(frame.n_dot_v, p.perceptual_roughness), sheen_albedo(h.n_dot_l, p.perceptual_roughness)) * SHEEN_MARGIN;
+    return p.color * (v * h.n_dot_l * d / max(most, 1.0));
 }
 
 /// The direction, not unit, about which the sheen's light is gathered: the normal, leaning to the viewer, to whom fibres
@@ -542,14 +547,14 @@ fn sheen_direction(frame: Frame) -> vec3f {
 /// `around`, the irradiance over pi about sheen_direction, and `middle`, prefiltered about the normal for a roughness near
 /// 0.56, which the ring does not see: max(around + (0.84 - 0.7 r) (around - middle), 0.4 around). Our own fit.
 fn sheen_ring(p: Sheen, around: vec3f, middle: vec3f) -> vec3f {
-    return max(around + (0.84 - 0.7 * p.perceptual_roughness) * (around - middle), 0.4 * around);
+    return max(mix(middle, around, 1.84 - 0.7 * p.perceptual_roughness), 0.4 * around);
 }
 
 /// Radiance that the sheen reflects from an environment, seen at n.v: color min(E, 1/1.06) times the radiance filtered by
 /// the lobe: sheen_ring's, or, one lookup less and a worse fit, the irradiance over pi of the normal.
 fn sheen_environment(p: Sheen, n_dot_v: f32, prefiltered_radiance: vec3f) -> vec3f {
     let albedo = min(sheen_albedo(n_dot_v, p.perceptual_roughness), SHEEN_ALBEDO_CEILING);
-    return finite_or_zero(p.color * albedo * prefiltered_radiance);
+    return p.color * albedo * prefiltered_radiance;
 }
 
 /// What the base keeps of its own light below the sheen: 1 - max(color) min(E(v), 1). Estevez and Kulla 2017, albedo
@@ -585,24 +590,24 @@ struct ThinFilm {
 /// What the film adds to the reflectance at the cosine l.h of a base of reflectances f0 and f90, in [-1, 1]:
 /// weight (f90 F_film - F(f0, f90)). For the light of a whole lobe it is added to both f0 and f90.
 fn thin_film_shift(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
+    return thin_film_fresnel(f0, f90, p, l_dot_h) - f_schlick(f0, f90, l_dot_h);
+}
+
+/// Reflectance at the cosine l.h, `p.weight` of the base under the film. It takes the place of F in a lobe lit from one
+/// direction.
+fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
     // ior_from_f0 of each channel.
     let s2 = clamp(f0 / max(f90, vec3f(F90_FLOOR)), vec3f(0.0), vec3f(F0_CEILING));
     let s = 1.0 + sqrt(s2);
-    let film = f_thin_film_dielectric(p.ior, p.thickness, s * s / (1.0 - s2), l_dot_h);
-    return saturate(p.weight) * (f90 * film - f_schlick(f0, f90, l_dot_h));
-}
-
-/// Reflectance at the cosine l.h, `p.weight` of the base under the film: F(f0, f90) + thin_film_shift. It takes the place of
-/// f0 and of f90 in a lobe lit from one direction.
-fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
-    return f_schlick(f0, f90, l_dot_h) + thin_film_shift(f0, f90, p, l_dot_h);
+    let film = f90 * f_thin_film_dielectric(p.ior, p.thickness, s * s / (1.0 - s2), l_dot_h);
+    return mix(f_schlick(f0, f90, l_dot_h), film, saturate(p.weight));
 }
 
 /// The cosine l.h at which Schlick's F is the lobe's mean, from the split-sum pair: b / (a + b) is the mean of
 /// (1 - l.h)^5. An environment meets the film at it; on a smooth surface it is n.v.
 fn thin_film_cosine(dfg: vec2f) -> f32 {
     let mean = clamp(dfg.y / max(dfg.x + dfg.y, 1e-6), 1e-30, 1.0);
-    return 1.0 - exp2(0.2 * log2(mean));
+    return 1.0 - pow(mean, 0.2);
 }
 
 /// What a film that adds `shift` to the reflectance changes of the light that passes the base: (1 - F - shift) / (1 - F), all
@@ -631,23 +636,22 @@ struct Transmission {
 /// color (1 - F) |v.h| |l.h| G D / (n.v (v.h + eta l.h)^2), equation 21 of the paper, over the index on the viewer's side.
 /// G = G1(v) G1(l), h = -(v + eta l) / |v + eta l| on the viewer's side. Total internal reflection gives 0.
 fn transmission_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
-    let sum = normalize_or(frame.view_dir + p.eta * l, vec3f(0.0));
-    let h = select(-sum, sum, dot(sum, frame.normal) > 0.0);
-    let v_dot_h = dot(frame.view_dir, h);
-    let l_dot_h = dot(l, h);
-    let sine = cross(frame.normal, h);
-    let n_dot_l = -dot(frame.normal, l);
-    let root = v_dot_h + p.eta * l_dot_h;
-    let d = d_ggx(dot(frame.normal, h), dot(sine, sine), p.alpha);
+    // h times |s|, of either sign: D over |s|^4 needs no |s|, and v.h + eta l.h is |s|.
+    let s = frame.view_dir + p.eta * l;
+    let n_dot_s = dot(frame.normal, s);
+    let v_dot_s = dot(frame.view_dir, s);
+    let l_dot_s = dot(l, s);
+    let sine = cross(frame.normal, s);
+    let width = n_dot_s * p.alpha;
+    let k = p.alpha / max(width * width + dot(sine, sine), JACOBIAN_FLOOR);
     // G / (n.v |n.l|) is four times V of Smith's separable form; times |n.l| it is finite at the horizon.
-    let a2 = p.alpha * p.alpha;
-    let front = max(n_dot_l, 0.0);
-    let view_lit = frame.n_dot_v + sqrt(a2 + (1.0 - a2) * frame.n_dot_v * frame.n_dot_v);
-    let light_lit = front + sqrt(a2 + (1.0 - a2) * front * front);
-    let g = 4.0 * front / max(view_lit * light_lit, 1e-36);
-    let f = f_dielectric(p.eta, v_dot_h);
-    let part = (1.0 - f) * d * g * v_dot_h * -l_dot_h / max(root * root, JACOBIAN_FLOOR);
-    return finite_or_zero(p.color * select(0.0, part, v_dot_h > 0.0 && l_dot_h < 0.0 && n_dot_l > 0.0));
+    let front = max(-dot(frame.normal, l), 0.0);
+    let g = 4.0 * INV_PI * front * v_smith_ggx_separable(frame.n_dot_v, front, 0.0, p.alpha);
+    let f = f_dielectric(p.eta, abs(v_dot_s) * inverseSqrt(max(dot(s, s), JACOBIAN_FLOOR)));
+    let part = (1.0 - f) * g * (k * v_dot_s) * (k * -l_dot_s);
+    // Both rays stand on their sides of the microfacet, and the light behind the surface.
+    let through = min(v_dot_s * n_dot_s, -l_dot_s * n_dot_s) > 0.0;
+    return p.color * select(0.0, part, through);
 }
 
 /// Factor on transmission_eval that brings back what the microfacets beyond the first block of the light that comes through
@@ -655,7 +659,7 @@ fn transmission_eval(frame: Frame, l: vec3f, p: Transmission) -> vec3f {
 /// / (1 - 0.067 alpha), q = 1 - n.v: our own fit to quadrature for eta from 1 up.
 fn transmission_compensation(n_dot_v: f32, p: Transmission) -> f32 {
     let inv_eta = saturate(1.0 / max(p.eta, 1.0));
-    let q = 1.0 - saturate(n_dot_v);
+    let q = 1.0 - n_dot_v;
     let slope = 0.317 * (1.0 - inv_eta) + q * (0.361 - 0.335 * inv_eta + q * (1.405 * inv_eta - 0.456));
     return 1.0 / (1.0 - clamp(p.alpha * slope / (1.0 - 0.067 * p.alpha), 0.0, 0.85));
 }
@@ -664,9 +668,13 @@ fn transmission_compensation(n_dot_v: f32, p: Transmission) -> f32 {
 /// law; where it is totally reflected, the grazing ray.
 fn transmission_direction(frame: Frame, eta: f32) -> vec3f {
     let inv_eta = 1.0 / max(eta, 1e-6);
-    let cos2 = 1.0 - inv_eta * inv_eta * (1.0 - frame.n_dot_v * frame.n_dot_v);
-    let along = inv_eta * frame.n_dot_v - sqrt(max(cos2, 0.0));
-    return normalize_or(frame.normal * along - frame.view_dir * inv_eta, -frame.normal);
+    let along = inv_eta * frame.n_dot_v - refracted_cosine(frame.n_dot_v, inv_eta);
+    return normalize(frame.normal * along - frame.view_dir * inv_eta);
+}
+
+/// The cosine of v refracted by the smooth surface, Snell's law; 0 where it is totally reflected.
+fn refracted_cosine(n_dot_v: f32, inv_eta: f32) -> f32 {
+    return sqrt(max(mix(1.0, n_dot_v * n_dot_v, inv_eta * inv_eta), 0.0));
 }
 
 /// One lookup of an environment through a surface.
@@ -683,11 +691,11 @@ struct TransmissionLookup {
 /// wide as a reflection's of alpha X / (2 sqrt(cos_t)). 0.45 in the place of 1/2 and the lean are fitted to the integral.
 fn transmission_lookup(frame: Frame, eta: f32, alpha: f32) -> TransmissionLookup {
     let leaning = frame.normal + alpha * (frame.view_dir - frame.n_dot_v * frame.normal);
-    let facet = frame_from_normal(normalize_or(leaning, frame.normal), frame.view_dir);
-    let dir = transmission_direction(facet, eta);
-    let cos_t = clamp(-dot(facet.normal, dir), 0.01, 1.0);
-    let turn = abs(cos_t - facet.n_dot_v / max(eta, 1e-6));
-    return TransmissionLookup(dir, sqrt(saturate(0.45 * alpha * turn / sqrt(cos_t))));
+    let facet = frame_from_normal(normalize(leaning), frame.view_dir);
+    let inv_eta = 1.0 / max(eta, 1e-6);
+    let cos_t = max(refracted_cosine(facet.n_dot_v, inv_eta), 0.01);
+    let turn = abs(cos_t - facet.n_dot_v * inv_eta);
+    return TransmissionLookup(transmission_direction(facet, eta), sqrt(saturate(0.45 * alpha * turn / sqrt(cos_t))));
 }
 
 /// Radiance that arrives through the surface from an environment: color (1 - f0 a - b) times the radiance of
@@ -695,7 +703,7 @@ fn transmission_lookup(frame: Frame, eta: f32, alpha: f32) -> TransmissionLookup
 /// f0.
 /// The compression by eta^2 is left out: a ray that enters a body leaves it again.
 fn transmission_environment(p: Transmission, f0: f32, transmitted_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(p.color * saturate(1.0 - f0 * dfg.x - dfg.y) * transmitted_radiance);
+    return p.color * saturate(1.0 - f0 * dfg.x - dfg.y) * transmitted_radiance;
 }
 
 // ---- brdf/multiscatter.wgsl
@@ -730,13 +738,9 @@ const NEUBELT_FLOOR: f32 = 1e-36;
 fn d_charlie(n_dot_h: f32, sin2_theta_h: f32, alpha: f32) -> f32 {
     let exponent = 1.0 / max(alpha, CHARLIE_ALPHA_FLOOR);
     let x = n_dot_h * n_dot_h;
-    let rest = max(1.0 - x, 0.25);
-    let is_1 = rest >= 1.0;
-    let slope = log2(rest) / select(rest - 1.0, -1.0, is_1);
-    let near_1 = -x * select(slope, 1.44269504088896340736, is_1);
-    let log2_sin2 = select(log2(max(sin2_theta_h, SIN2_FLOOR)), near_1, x < 0.5);
-    let power = exp2(0.5 * exponent * log2_sin2);
-    return select(0.0, (2.0 + exponent) * power * (0.5 * INV_PI), sin2_theta_h > 0.0);
+    let rest = 1.0 - x;
+    let log2_sin2 = log2(select(max(sin2_theta_h, SIN2_FLOOR), rest, x < 0.5)) + 1.44269504088896340736 * ((1.0 - rest) - x);
+    return (2.0 + exponent) * exp2(0.5 * exponent * log2_sin2) * (0.5 * INV_PI);
 }
 
 /// Neubelt and Pettineo 2013, Crafting a Next-Gen Material Pipeline for The Order: 1886: V = 1 / (4 (n.l + n.v - n.l n.v)).
@@ -761,58 +765,56 @@ const FILM_IOR_FLOOR: f32 = 1e-3;
 // Largest index and extinction of the base; the fourth power must not overflow.
 const BASE_IOR_CEILING: f32 = 1e6;
 
-// Smallest denominator.
-const FILM_FLOOR: f32 = 1e-18;
-
 /// f_thin_film on a dielectric base, of index `base_eta` from 1 up: all amplitudes are real there, which is a third of the
 /// work.
 fn f_thin_film_dielectric(film_ior: f32, thickness: f32, base_eta: vec3f, cos_theta: f32) -> vec3f {
-    let c1 = clamp(cos_theta, 0.0, 1.0);
+    // Above 0, and so is every denominator.
+    let c1 = clamp(cos_theta, 1e-6, 1.0);
     let depth = clamp(thickness, 0.0, THICKNESS_CEILING);
     let present = min(depth * (1.0 / FADE_THICKNESS), 1.0);
     let fade = present * present * (3.0 - 2.0 * present);
     let ior = 1.0 + fade * (clamp(film_ior, FILM_IOR_FLOOR, FILM_IOR_CEILING) - 1.0);
-    let q2 = (ior - 1.0) * (ior + 1.0) + c1 * c1;
-    let q = sqrt(max(q2, 0.0));
+    // 0 where the film reflects all: then nothing is lost below.
+    let q = sqrt(max((ior - 1.0) * (ior + 1.0) + c1 * c1, 0.0));
+    let tones = film_real_tones(2.0 * depth * q);
     let ior2 = ior * ior;
-    let path = 2.0 * depth * q;
-    let one = film_tone(path);
-    let two = film_tone(2.0 * path);
-    let three = film_tone(3.0 * path);
     let n = clamp(base_eta, vec3f(1.0), vec3f(BASE_IOR_CEILING));
-    let n2 = n * n;
     let a = sqrt((n - 1.0) * (n + 1.0) + c1 * c1);
-    let r12_s = (c1 - q) / max(c1 + q, FILM_FLOOR);
-    let r12_p = (ior2 * c1 - q) / max(ior2 * c1 + q, FILM_FLOOR);
-    let r23_s = (q - a) / max(q + a, vec3f(FILM_FLOOR));
-    let r23_p = (n2 * q - ior2 * a) / max(n2 * q + ior2 * a, vec3f(FILM_FLOOR));
-    let both = film_sum(r12_s, r23_s, one, two, three) + film_sum(r12_p, r23_p, one, two, three);
-    return select(clamp(0.5 * both, vec3f(0.0), vec3f(1.0)), vec3f(1.0), q2 < 0.0);
+    return saturate(1.0 - (film_loss(q, c1, a, tones) + film_loss(q, ior2 * c1, ior2 * a / (n * n), tones)));
 }
 
-/// The real part of each channel's response to exp(i k `path`): film_tones by dot products over four of the five lobes.
-fn film_tone(path: f32) -> vec3f {
+/// The real parts of film_tones, a column for each order: five Gaussians at three orders as four vectors.
+fn film_real_tones(path: f32) -> mat3x3f {
     let centres = vec4f(0.010258501116189029, 0.010910616526684985, 0.01405857181573468, 0.011209009787066005);
-    let deviations = vec4f(0.0004333990052411747, 0.0005365664975144916, 0.0006182748601196432, 0.0008357307798945551);
-    let spread = path * deviations;
-    // Half of log2(e).
-    let e = exp2(-0.72134752044448170368 * spread * spread) * cos(path * centres);
-    let last_spread = 0.0007077886426635069 * path;
-    let last = exp2(-0.72134752044448170368 * last_spread * last_spread) * cos(0.013915925235247472 * path);
-    return last * vec3f(-0.542815912, 0.045247421, 1.151138518) + vec3f(
-        dot(e, vec4f(1.341800362, 1.218921421, 0.519232538, -1.537138409)),
-        dot(e, vec4f(-0.401351635, -0.364596791, -0.155309862, 1.876010867)),
-        dot(e, vec4f(0.023040702, 0.020930688, 0.008915993, -0.204025901)),
+    let last_centre = vec3f(0.013915925235247472, 0.027831850470494944, 0.041747775705742416);
+    // Minus half of log2(e), times the squares of the deviations.
+    let spreads = vec4f(-1.3549409347110175e-7, -2.0767855249904617e-7, -2.757450462015585e-7, -5.038222444322254e-7);
+    let last_spread = vec3f(-3.6136968939176454e-7, -1.4454787575670581e-6, -3.2523272045258807e-6);
+    let weights = mat4x3f(
+        1.341800362, -0.401351635, 0.023040702,
+        1.218921421, -0.364596791, 0.020930688,
+        0.519232538, -0.155309862, 0.008915993,
+        -1.537138409, 1.876010867, -0.204025901,
     );
+    let last_weight = vec3f(-0.542815912, 0.045247421, 1.151138518);
+    let path2 = path * path;
+    let last = exp2(path2 * last_spread) * cos(path * last_centre);
+    let one = weights * (exp2(path2 * spreads) * cos(path * centres));
+    let two = weights * (exp2(path2 * (4.0 * spreads)) * cos(path * (2.0 * centres)));
+    let three = weights * (exp2(path2 * (9.0 * spreads)) * cos(path * (3.0 * centres)));
+    return mat3x3f(one + last.xxx * last_weight, two + last.yyy * last_weight, three + last.zzz * last_weight);
 }
 
-/// Airy's sum of one polarisation with real amplitudes, as film_series.
-fn film_sum(r12: f32, r23: vec3f, one: vec3f, two: vec3f, three: vec3f) -> vec3f {
-    let z = -r12 * r23;
-    let t = 1.0 - r12 * r12;
-    let c = t * t * r23 * r23 / max(1.0 - z * z, vec3f(FILM_FLOOR));
-    let sum = z * (one + z * (two + z * three));
-    return r12 * r12 + c + 2.0 * (c - t) * sum;
+/// What one polarisation does not reflect of its half of the light, (1 - R)/2 of film_series with the real amplitudes
+/// -r12 = (q - c)/(q + c) and r23 = (q - a)/(q + a). With m = q^2 + c a and s = q (c + a) it is
+/// 4 q c a / (m (c + a)) (1/2 + sum over j of z^j Re(..)), z = (m - s)/(m + s).
+fn film_loss(q: f32, c: f32, a: vec3f, tones: mat3x3f) -> vec3f {
+    let ca = c * a;
+    let sum = c + a;
+    let m = q * q + ca;
+    let s = q * sum;
+    let z = (m - s) / (m + s);
+    return 4.0 * q * ca / (m * sum) * (0.5 + z * (tones[0] + z * (tones[1] + z * tones[2])));
 }
 
 // ---- color.wgsl
@@ -858,9 +860,9 @@ fn rotate_about_y(dir: vec3f, cos_sin: vec2f) -> vec3f {
 /// Level that holds a perceptual roughness when level 0 is the unfiltered environment, level 1 is prefiltered for 0.1, the
 /// last for 1, and each between them for the same multiple of the one before.
 fn lod_geometric(perceptual_roughness: f32, levels: f32) -> f32 {
-    let above = 1.0 + (levels - 2.0) * (log2(max(10.0 * perceptual_roughness, 1.0)) / log2(10.0));
-    let below = 10.0 * perceptual_roughness;
-    return min(select(above, below, below < 1.0), levels - 1.0);
+    let place = 10.0 * perceptual_roughness;
+    let above = (levels - 2.0) * (log2(max(place, 1.0)) / log2(10.0));
+    return min(min(place, 1.0) + above, levels - 1.0);
 }
 
 /// Radiance that arrives from a direction, prefiltered as much as the level says; mixed linearly between levels.
@@ -873,13 +875,14 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 /// as a derivative; `t` is 0 at `near` and 1 at `far`.
 /// Where a lobe meets a lamp the light goes with a power of its width, falling in the middle and rising outside, so that
 /// logarithms are mixed: of the colours linearly, and of their sum by Hermite's cubic, which also follows the slopes.
-/// 1e-7, less than half precision resolves, keeps black finite.
+/// Black is taken as 1e-7, about the least that half precision holds.
 fn mix_levels(near: vec4f, far: vec4f, t: f32) -> vec3f {
-    let tiny = 1e-7;
     let one = vec3f(1.0);
-    let rise = log2((dot(far.rgb, one) + tiny) / (dot(near.rgb, one) + tiny));
-    let bend = t * (1.0 - t) * ((1.0 - t) * (near.a - rise) - t * (far.a - rise));
-    return max(exp2(mix(log2(near.rgb + tiny), log2(far.rgb + tiny), t) + bend) - tiny, vec3f(0.0));
+    let n = max(near.rgb, vec3f(1e-7));
+    let f = max(far.rgb, vec3f(1e-7));
+    let rise = log2(dot(f, one) / dot(n, one));
+    let bend = t * (1.0 - t) * mix(near.a - rise, rise - far.a, t);
+    return pow(f / n, vec3f(t)) * n * exp2(bend);
 }
 
 /// Radiance that arrives from a direction, prefiltered as much as the level says, from levels with slopes: see
@@ -894,11 +897,11 @@ fn environment_sample_hermite(cube: texture_cube<f32>, cube_sampler: sampler, di
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
+    let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
@@ -925,12 +928,15 @@ struct PointLight {
 struct SpotLight {
     /// Where it is, in world space [m].
     position: vec3f,
+    /// Scale that takes the cosine to the axis, with cos_offset, to 0 at the outer and 1 at the inner cone. Each number
+    /// fills the fourth of a vector: every shading language lays that out alike.
+    cos_scale: f32,
     /// Luminous intensity on the axis [cd].
     intensity: vec3f,
+    /// Offset of the scaled cosine.
+    cos_offset: f32,
     /// Unit direction of the axis, the way the light shines, in world space.
     direction: vec3f,
-    /// Scale and offset that take the cosine to the axis to 0 at the outer and 1 at the inner cone.
-    cos_scale_offset: vec2f,
 }
 
 /// What arrives at a point from a light.
@@ -963,7 +969,7 @@ fn point_light_sample(light: PointLight, position: vec3f) -> LightSample {
 fn spot_light_sample(light: SpotLight, position: vec3f) -> LightSample {
     let all_around = point_light_sample(PointLight(light.position, light.intensity), position);
     let cos_to_axis = -dot(light.direction, all_around.dir);
-    let cone = saturate(cos_to_axis * light.cos_scale_offset.x + light.cos_scale_offset.y);
+    let cone = saturate(cos_to_axis * light.cos_scale + light.cos_offset);
     return LightSample(all_around.dir, all_around.illuminance * (cone * cone));
 }
 
@@ -994,13 +1000,20 @@ fn pow5(x: f32) -> f32 {
 /// WGSL leaves its result for NaN open.
 fn normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
     let length2 = dot(v, v);
-    let has_direction = (length2 > LENGTH2_FLOOR) & (length2 < LENGTH2_CEILING);
-    return select(fallback, v * inverseSqrt(length2), has_direction);
+    let has_direction = clamp(length2, LENGTH2_FLOOR, LENGTH2_CEILING) == length2;
+    return select(fallback, normalize(v), has_direction);
+}
+
+/// A unit direction across a unit normal, any.
+fn any_tangent(normal: vec3f) -> vec3f {
+    let aside = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.x) > 0.7);
+    return normalize(cross(normal, aside));
 }
 
 /// The colour with each channel that is NaN or infinite set to 0.
 ///
-/// The last line of every lobe, so that one bad texel stays one dark pixel and does not spread through a filter.
+/// What a shader ends in, so that one bad texel stays one dark pixel and does not spread through a filter. (The Rust lobes,
+/// which are called one by one, each end in it.)
 fn finite_or_zero(c: vec3f) -> vec3f {
     return select(vec3f(0.0), c, abs(c) < vec3f(FINITE_CEILING));
 }

@@ -66,7 +66,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let normal_2 = node_textures_image(normal_texture, linear_repeat, in.uv0); // Normal
     let normal_map = node_textures_normal_map_tbn(normal_2.color, 1.0, false, world_normal, in.world_tangent); // Normal map
     let diffuse_albedo = albedo.color * (1.0 - metalness.r);
-    let f0 = f0_from_metallic(albedo.color, metalness.r, 0.040000003);
+    let f0 = mix(vec3f(0.040000003), albedo.color, metalness.r);
     let frame = frame_from_normal(normal_map, view_dir);
     let specular = Specular(f0, vec3f(1.0), alpha_from_perceptual_roughness(roughness.r));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, roughness.r);
@@ -79,6 +79,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(roughness.r, view.environment_levels));
     let horizon = horizon_cone(dot(mirror_dir, world_normal), dot(frame.normal, world_normal), frame.n_dot_v, roughness.r);
     radiance += specular_environment(specular, reflection, dfg) * compensation * horizon;
+    radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
 }
 
@@ -123,8 +124,7 @@ struct Frame {
 ///
 /// NaN in either gives n_dot_v = N_DOT_V_FLOOR.
 fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
-    let n_dot_v = dot(normal, view_dir);
-    return Frame(normal, view_dir, select(N_DOT_V_FLOOR, min(n_dot_v, 1.0), n_dot_v > N_DOT_V_FLOOR));
+    return Frame(normal, view_dir, clamp(dot(normal, view_dir), N_DOT_V_FLOOR, 1.0));
 }
 
 // ---- brdf/ggx.wgsl
@@ -133,7 +133,7 @@ fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
 ///
 /// Held in [0, 1]; NaN gives 1.
 fn alpha_from_perceptual_roughness(perceptual_roughness: f32) -> f32 {
-    let r = select(1.0, max(perceptual_roughness, 0.0), perceptual_roughness < 1.0);
+    let r = saturate(perceptual_roughness);
     return r * r;
 }
 
@@ -149,7 +149,7 @@ struct Diffuse {
 
 /// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.
 fn diffuse_environment(p: Diffuse, irradiance_over_pi: vec3f) -> vec3f {
-    return finite_or_zero(p.color * irradiance_over_pi);
+    return p.color * irradiance_over_pi;
 }
 
 // ---- brdf/lobe_specular.wgsl
@@ -176,14 +176,7 @@ fn specular_direction(frame: Frame, mirror_dir: vec3f, perceptual_roughness: f32
 /// Karis 2013, Real Shading in Unreal Engine 4, the split sum: prefiltered radiance about the reflection times
 /// the lobe's directional albedo.
 fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg));
-}
-
-// ---- brdf/metallic_roughness.wgsl
-
-/// Reflectance at normal incidence: dielectric_f0 (1 - metallic) + base_color metallic.
-fn f0_from_metallic(base_color: vec3f, metallic: f32, dielectric_f0: f32) -> vec3f {
-    return vec3f(dielectric_f0 * (1.0 - metallic)) + base_color * metallic;
+    return prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg);
 }
 
 // ---- brdf/multiscatter.wgsl
@@ -225,9 +218,9 @@ fn tangent_in_world(world_from_object: mat4x4f, tangent: vec4f) -> vec4f {
 /// Level that holds a perceptual roughness when level 0 is the unfiltered environment, level 1 is prefiltered for 0.1, the
 /// last for 1, and each between them for the same multiple of the one before.
 fn lod_geometric(perceptual_roughness: f32, levels: f32) -> f32 {
-    let above = 1.0 + (levels - 2.0) * (log2(max(10.0 * perceptual_roughness, 1.0)) / log2(10.0));
-    let below = 10.0 * perceptual_roughness;
-    return min(select(above, below, below < 1.0), levels - 1.0);
+    let place = 10.0 * perceptual_roughness;
+    let above = (levels - 2.0) * (log2(max(place, 1.0)) / log2(10.0));
+    return min(min(place, 1.0) + above, levels - 1.0);
 }
 
 /// Radiance that arrives from a direction, prefiltered as much as the level says; mixed linearly between levels.
@@ -240,13 +233,14 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 /// as a derivative; `t` is 0 at `near` and 1 at `far`.
 /// Where a lobe meets a lamp the light goes with a power of its width, falling in the middle and rising outside, so that
 /// logarithms are mixed: of the colours linearly, and of their sum by Hermite's cubic, which also follows the slopes.
-/// 1e-7, less than half precision resolves, keeps black finite.
+/// Black is taken as 1e-7, about the least that half precision holds.
 fn mix_levels(near: vec4f, far: vec4f, t: f32) -> vec3f {
-    let tiny = 1e-7;
     let one = vec3f(1.0);
-    let rise = log2((dot(far.rgb, one) + tiny) / (dot(near.rgb, one) + tiny));
-    let bend = t * (1.0 - t) * ((1.0 - t) * (near.a - rise) - t * (far.a - rise));
-    return max(exp2(mix(log2(near.rgb + tiny), log2(far.rgb + tiny), t) + bend) - tiny, vec3f(0.0));
+    let n = max(near.rgb, vec3f(1e-7));
+    let f = max(far.rgb, vec3f(1e-7));
+    let rise = log2(dot(f, one) / dot(n, one));
+    let bend = t * (1.0 - t) * mix(near.a - rise, rise - far.a, t);
+    return pow(f / n, vec3f(t)) * n * exp2(bend);
 }
 
 /// Radiance that arrives from a direction, prefiltered as much as the level says, from levels with slopes: see
@@ -261,11 +255,11 @@ fn environment_sample_hermite(cube: texture_cube<f32>, cube_sampler: sampler, di
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
+    let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
@@ -274,8 +268,7 @@ fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, 
 
 /// 0 below -width, 1 above width, a cubic step between.
 fn smooth_step_about_zero(x: f32, width: f32) -> f32 {
-    let t = saturate(0.5 + 0.5 * x / width);
-    return t * t * (3.0 - 2.0 * t);
+    return smoothstep(-width, width, x);
 }
 
 /// The part of the specular lobe above the geometry's horizon, where the shading normal n is not the geometric normal g;
@@ -298,38 +291,22 @@ fn horizon_cone(r_dot_g: f32, n_dot_g: f32, n_dot_v: f32, perceptual_roughness: 
 
 // ---- maps/normal.wgsl
 
-/// The tangent-space unit normal that a texel says: t = 2 c - 1, x and y scaled by `strength`, y turned over by
-/// `flip_y`. A texel that says nothing, such as (.5, .5, .5), is straight up. Read as unorm: 8-bit (128, 128, 255) leans
-/// by 0.32 degrees.
-fn normal_from_texel(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
-    let t = 2.0 * color - 1.0;
+/// normal_from_texel before it is made unit; zero for a texel that says nothing.
+fn tilt_from_texel(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
+    let t = fma(color, vec3f(2.0), vec3f(-1.0));
     let y = select(t.y, -t.y, flip_y);
-    return normalize_or(vec3f(t.x * strength, y * strength, t.z), vec3f(0.0, 0.0, 1.0));
+    return vec3f(t.x * strength, y * strength, t.z);
 }
 
-/// A unit tangent of any unit normal, without a pole. Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin 2017,
-/// "Building an Orthonormal Basis, Revisited": with s = +-1, the sign of n.z,
-///   a = -1 / (s + n.z),  T = (1 + s n.x^2 a, s n.x n.y a, -s n.x),  and B = cross(n, T).
-fn tangent_from_normal(normal: vec3f) -> vec3f {
-    let s = f32(select(-1.0, 1.0, normal.z >= 0.0));
-    let a = -1.0 / (s + normal.z);
-    return vec3f(1.0 + s * normal.x * normal.x * a, s * normal.x * normal.y * a, -s * normal.x);
-}
-
-/// Normal mapping by tangent frame. Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited": with N and T as they
-/// come interpolated, not made orthonormal again, and w the handedness (+-1 in `tangent.w`),
-///   B = w cross(N, T),   n = normalize(t.x T + t.y B + t.z N)
-/// A tangent that is zero or along N is replaced by a tangent of N alone (`tangent_from_normal`); a zero normal is +Z.
-fn normal_tbn(n_tangent: vec3f, normal: vec3f, tangent: vec4f) -> vec3f {
-    let unit_normal = normalize_or(normal, vec3f(0.0, 0.0, 1.0));
-    let across = cross(normal, tangent.xyz);
+/// normal_tbn of a direction `n_tangent` of any length, zero being straight up, where the unit normal is known.
+fn bent_normal(n_tangent: vec3f, normal: vec3f, unit_normal: vec3f, tangent: vec4f) -> vec3f {
+    let across = cross(unit_normal, tangent.xyz);
     // |N x T| <= 1e-6 |N| |T|: the direction of B would be rounding noise, or 0 / 0.
-    let usable = dot(across, across) > 1e-12 * dot(normal, normal) * dot(tangent.xyz, tangent.xyz);
-    let fallback = tangent_from_normal(unit_normal);
-    let t = select(fallback, tangent.xyz, usable);
-    let b = select(cross(unit_normal, fallback), select(across, -across, tangent.w < 0.0), usable);
+    let usable = dot(across, across) > 1e-12 * dot(tangent.xyz, tangent.xyz);
+    let t = select(any_tangent(unit_normal), tangent.xyz, usable);
     let n = select(unit_normal, normal, usable);
-    return normalize_or(n_tangent.x * t + n_tangent.y * b + n_tangent.z * n, unit_normal);
+    let b = f32(select(1.0, -1.0, tangent.w < 0.0)) * cross(n, t);
+    return normalize_or(mat3x3f(t, b, n) * n_tangent, unit_normal);
 }
 
 // ---- math.wgsl
@@ -349,13 +326,20 @@ const FINITE_CEILING: f32 = 3e38;
 /// WGSL leaves its result for NaN open.
 fn normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
     let length2 = dot(v, v);
-    let has_direction = (length2 > LENGTH2_FLOOR) & (length2 < LENGTH2_CEILING);
-    return select(fallback, v * inverseSqrt(length2), has_direction);
+    let has_direction = clamp(length2, LENGTH2_FLOOR, LENGTH2_CEILING) == length2;
+    return select(fallback, normalize(v), has_direction);
+}
+
+/// A unit direction across a unit normal, any.
+fn any_tangent(normal: vec3f) -> vec3f {
+    let aside = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.x) > 0.7);
+    return normalize(cross(normal, aside));
 }
 
 /// The colour with each channel that is NaN or infinite set to 0.
 ///
-/// The last line of every lobe, so that one bad texel stays one dark pixel and does not spread through a filter.
+/// What a shader ends in, so that one bad texel stays one dark pixel and does not spread through a filter. (The Rust lobes,
+/// which are called one by one, each end in it.)
 fn finite_or_zero(c: vec3f) -> vec3f {
     return select(vec3f(0.0), c, abs(c) < vec3f(FINITE_CEILING));
 }
@@ -388,5 +372,5 @@ fn node_textures_image(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f
 
 /// The normal map by the tangent frame of the mesh.
 fn node_textures_normal_map_tbn(color: vec3f, strength: f32, flip_y: bool, normal: vec3f, tangent: vec4f) -> vec3f {
-    return normal_tbn(normal_from_texel(color, strength, flip_y), normal, tangent);
+    return bent_normal(tilt_from_texel(color, strength, flip_y), normal, normal, tangent);
 }

@@ -62,7 +62,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let normal_2 = node_textures_image(normal_texture, linear_repeat, in.uv0); // Normal
     let normal_map = node_textures_normal_map_rotation_report(normal_2.color, 1.0, false, world_normal); // Normal map
     let diffuse_albedo = albedo.color * (1.0 - metalness.r);
-    let f0 = f0_from_metallic(albedo.color, metalness.r, 0.040000003);
+    let f0 = mix(vec3f(0.040000003), albedo.color, metalness.r);
     let frame = frame_from_normal(normal_map, view_dir);
     let specular = Specular(f0, vec3f(1.0), alpha_from_perceptual_roughness(roughness.r));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, roughness.r);
@@ -72,6 +72,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     var radiance = diffuse_environment(diffuse, irradiance);
     let reflection = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, lod_report(roughness.r, view.environment_levels)));
     radiance += specular_environment(specular, reflection, dfg);
+    radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
 }
 
@@ -103,8 +104,7 @@ struct Frame {
 ///
 /// NaN in either gives n_dot_v = N_DOT_V_FLOOR.
 fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
-    let n_dot_v = dot(normal, view_dir);
-    return Frame(normal, view_dir, select(N_DOT_V_FLOOR, min(n_dot_v, 1.0), n_dot_v > N_DOT_V_FLOOR));
+    return Frame(normal, view_dir, clamp(dot(normal, view_dir), N_DOT_V_FLOOR, 1.0));
 }
 
 // ---- brdf/ggx.wgsl
@@ -113,7 +113,7 @@ fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
 ///
 /// Held in [0, 1]; NaN gives 1.
 fn alpha_from_perceptual_roughness(perceptual_roughness: f32) -> f32 {
-    let r = select(1.0, max(perceptual_roughness, 0.0), perceptual_roughness < 1.0);
+    let r = saturate(perceptual_roughness);
     return r * r;
 }
 
@@ -129,7 +129,7 @@ struct Diffuse {
 
 /// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.
 fn diffuse_environment(p: Diffuse, irradiance_over_pi: vec3f) -> vec3f {
-    return finite_or_zero(p.color * irradiance_over_pi);
+    return p.color * irradiance_over_pi;
 }
 
 // ---- brdf/lobe_specular.wgsl
@@ -147,14 +147,7 @@ struct Specular {
 /// Karis 2013, Real Shading in Unreal Engine 4, the split sum: prefiltered radiance about the reflection times
 /// the lobe's directional albedo.
 fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg));
-}
-
-// ---- brdf/metallic_roughness.wgsl
-
-/// Reflectance at normal incidence: dielectric_f0 (1 - metallic) + base_color metallic.
-fn f0_from_metallic(base_color: vec3f, metallic: f32, dielectric_f0: f32) -> vec3f {
-    return vec3f(dielectric_f0 * (1.0 - metallic)) + base_color * metallic;
+    return prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg);
 }
 
 // ---- color.wgsl
@@ -192,11 +185,11 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
+    let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
@@ -207,9 +200,14 @@ fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, 
 /// `flip_y`. A texel that says nothing, such as (.5, .5, .5), is straight up. Read as unorm: 8-bit (128, 128, 255) leans
 /// by 0.32 degrees.
 fn normal_from_texel(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
-    let t = 2.0 * color - 1.0;
+    return normalize_or(tilt_from_texel(color, strength, flip_y), vec3f(0.0, 0.0, 1.0));
+}
+
+/// normal_from_texel before it is made unit; zero for a texel that says nothing.
+fn tilt_from_texel(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
+    let t = fma(color, vec3f(2.0), vec3f(-1.0));
     let y = select(t.y, -t.y, flip_y);
-    return normalize_or(vec3f(t.x * strength, y * strength, t.z), vec3f(0.0, 0.0, 1.0));
+    return vec3f(t.x * strength, y * strength, t.z);
 }
 
 // (cos, sin) of atan2(y, x), without the angle: (x, y) / |(x, y)|. Both zero is the angle 0.
@@ -257,13 +255,14 @@ const FINITE_CEILING: f32 = 3e38;
 /// WGSL leaves its result for NaN open.
 fn normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
     let length2 = dot(v, v);
-    let has_direction = (length2 > LENGTH2_FLOOR) & (length2 < LENGTH2_CEILING);
-    return select(fallback, v * inverseSqrt(length2), has_direction);
+    let has_direction = clamp(length2, LENGTH2_FLOOR, LENGTH2_CEILING) == length2;
+    return select(fallback, normalize(v), has_direction);
 }
 
 /// The colour with each channel that is NaN or infinite set to 0.
 ///
-/// The last line of every lobe, so that one bad texel stays one dark pixel and does not spread through a filter.
+/// What a shader ends in, so that one bad texel stays one dark pixel and does not spread through a filter. (The Rust lobes,
+/// which are called one by one, each end in it.)
 fn finite_or_zero(c: vec3f) -> vec3f {
     return select(vec3f(0.0), c, abs(c) < vec3f(FINITE_CEILING));
 }

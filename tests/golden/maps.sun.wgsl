@@ -66,7 +66,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let normal_2 = node_textures_image(normal_texture, linear_repeat, in.uv0); // Normal
     let normal_map = node_textures_normal_map_tbn(normal_2.color, 1.0, false, world_normal, in.world_tangent); // Normal map
     let diffuse_albedo = albedo.color * (1.0 - metalness.r);
-    let f0 = f0_from_metallic(albedo.color, metalness.r, 0.040000003);
+    let f0 = mix(vec3f(0.040000003), albedo.color, metalness.r);
     let frame = frame_from_normal(normal_map, view_dir);
     let specular = Specular(f0, vec3f(1.0), alpha_from_perceptual_roughness(max(roughness.r, PUNCTUAL_ROUGHNESS_FLOOR)));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, roughness.r);
@@ -75,6 +75,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let directional_light = directional_light_sample(lights.directional, in.world_position);
     var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * directional_light.illuminance;
     radiance += specular_eval(frame, directional_light.dir, specular) * compensation * directional_light.illuminance;
+    radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
 }
 
@@ -124,14 +125,15 @@ struct Half {
     l_dot_h: f32,
     /// sin^2 of the angle between n and h, as |n x h|^2.
     sin2_theta_h: f32,
+    /// h, unit; zero where there is none.
+    h: vec3f,
 }
 
 /// The frame of a unit shading normal and a unit direction to the viewer, with n.v held in [N_DOT_V_FLOOR, 1].
 ///
 /// NaN in either gives n_dot_v = N_DOT_V_FLOOR.
 fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
-    let n_dot_v = dot(normal, view_dir);
-    return Frame(normal, view_dir, select(N_DOT_V_FLOOR, min(n_dot_v, 1.0), n_dot_v > N_DOT_V_FLOOR));
+    return Frame(normal, view_dir, clamp(dot(normal, view_dir), N_DOT_V_FLOOR, 1.0));
 }
 
 /// The half vector of the unit direction `dir` to a light.
@@ -141,7 +143,6 @@ fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
 /// below an angle of 3e-4, and v.h by a dot product none where l is opposite to v.
 /// Where v + l = 0 there is no half vector: l.h = n.h = 0 and sin^2 = 1, which is h in the tangent plane.
 fn half_from_light(frame: Frame, dir: vec3f) -> Half {
-    let n_dot_l = dot(frame.normal, dir);
     let sum = frame.view_dir + dir;
     let length2 = dot(sum, sum);
     let has_half = length2 > LENGTH2_FLOOR;
@@ -149,10 +150,11 @@ fn half_from_light(frame: Frame, dir: vec3f) -> Half {
     let h = sum * inv_length;
     let sine = cross(frame.normal, h);
     return Half(
-        select(0.0, min(n_dot_l, 1.0), n_dot_l > 0.0),
+        saturate(dot(frame.normal, dir)),
         dot(frame.normal, h),
         0.5 * length2 * inv_length,
         select(1.0, dot(sine, sine), has_half),
+        h,
     );
 }
 
@@ -161,7 +163,7 @@ fn half_from_light(frame: Frame, dir: vec3f) -> Half {
 /// Schlick 1994, An Inexpensive BRDF Model for Physically-based Rendering:
 /// F = f0 + (f90 - f0) (1 - l.h)^5.
 fn f_schlick(f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
-    return f0 + (f90 - f0) * pow5(clamp(1.0 - l_dot_h, 0.0, 1.0));
+    return mix(f0, f90, pow5(max(1.0 - l_dot_h, 0.0)));
 }
 
 // ---- brdf/ggx.wgsl
@@ -181,7 +183,7 @@ const V_FLOOR: f32 = 1e-36;
 ///
 /// Held in [0, 1]; NaN gives 1.
 fn alpha_from_perceptual_roughness(perceptual_roughness: f32) -> f32 {
-    let r = select(1.0, max(perceptual_roughness, 0.0), perceptual_roughness < 1.0);
+    let r = saturate(perceptual_roughness);
     return r * r;
 }
 
@@ -201,8 +203,8 @@ fn d_ggx(n_dot_h: f32, sin2_theta_h: f32, alpha: f32) -> f32 {
 /// V = 1/2 / (n.l sqrt(alpha^2 + (1 - alpha^2)(n.v)^2) + n.v sqrt(alpha^2 + (1 - alpha^2)(n.l)^2)).
 fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
-    let view = n_dot_l * sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v);
-    let light = n_dot_v * sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l);
+    let view = n_dot_l * sqrt(mix(n_dot_v * n_dot_v, 1.0, a2));
+    let light = n_dot_v * sqrt(mix(n_dot_l * n_dot_l, 1.0, a2));
     return 0.5 / max(view + light, V_FLOOR);
 }
 
@@ -220,7 +222,7 @@ struct Diffuse {
 fn diffuse_eval(frame: Frame, l: vec3f, p: Diffuse) -> vec3f {
     let h = half_from_light(frame, l);
     let brdf = diffuse_lambert(p.color, frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
-    return finite_or_zero(brdf * h.n_dot_l);
+    return brdf * h.n_dot_l;
 }
 
 // ---- brdf/lobe_specular.wgsl
@@ -240,18 +242,15 @@ struct Specular {
 ///
 /// V n.l is taken first: it is at most 1/2 / max(alpha, n.v), while V alone is infinite at n.l = n.v = 0.
 fn specular_eval(frame: Frame, l: vec3f, p: Specular) -> vec3f {
-    let h = half_from_light(frame, l);
-    let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
-    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
-    let f = f_schlick(p.f0, p.f90, h.l_dot_h);
-    return finite_or_zero(f * (v * h.n_dot_l * d));
+    let f = f_schlick(p.f0, p.f90, half_from_light(frame, l).l_dot_h);
+    return f * specular_lit(frame, l, p);
 }
 
-// ---- brdf/metallic_roughness.wgsl
-
-/// Reflectance at normal incidence: dielectric_f0 (1 - metallic) + base_color metallic.
-fn f0_from_metallic(base_color: vec3f, metallic: f32, dielectric_f0: f32) -> vec3f {
-    return vec3f(dielectric_f0 * (1.0 - metallic)) + base_color * metallic;
+/// specular_eval without its F: D V n.l.
+fn specular_lit(frame: Frame, l: vec3f, p: Specular) -> f32 {
+    let h = half_from_light(frame, l);
+    let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
+    return v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha) * h.n_dot_l * d;
 }
 
 // ---- brdf/multiscatter.wgsl
@@ -292,11 +291,11 @@ fn tangent_in_world(world_from_object: mat4x4f, tangent: vec4f) -> vec4f {
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
+    let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
@@ -326,38 +325,22 @@ fn directional_light_sample(light: DirectionalLight, position: vec3f) -> LightSa
 
 // ---- maps/normal.wgsl
 
-/// The tangent-space unit normal that a texel says: t = 2 c - 1, x and y scaled by `strength`, y turned over by
-/// `flip_y`. A texel that says nothing, such as (.5, .5, .5), is straight up. Read as unorm: 8-bit (128, 128, 255) leans
-/// by 0.32 degrees.
-fn normal_from_texel(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
-    let t = 2.0 * color - 1.0;
+/// normal_from_texel before it is made unit; zero for a texel that says nothing.
+fn tilt_from_texel(color: vec3f, strength: f32, flip_y: bool) -> vec3f {
+    let t = fma(color, vec3f(2.0), vec3f(-1.0));
     let y = select(t.y, -t.y, flip_y);
-    return normalize_or(vec3f(t.x * strength, y * strength, t.z), vec3f(0.0, 0.0, 1.0));
+    return vec3f(t.x * strength, y * strength, t.z);
 }
 
-/// A unit tangent of any unit normal, without a pole. Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin 2017,
-/// "Building an Orthonormal Basis, Revisited": with s = +-1, the sign of n.z,
-///   a = -1 / (s + n.z),  T = (1 + s n.x^2 a, s n.x n.y a, -s n.x),  and B = cross(n, T).
-fn tangent_from_normal(normal: vec3f) -> vec3f {
-    let s = f32(select(-1.0, 1.0, normal.z >= 0.0));
-    let a = -1.0 / (s + normal.z);
-    return vec3f(1.0 + s * normal.x * normal.x * a, s * normal.x * normal.y * a, -s * normal.x);
-}
-
-/// Normal mapping by tangent frame. Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited": with N and T as they
-/// come interpolated, not made orthonormal again, and w the handedness (+-1 in `tangent.w`),
-///   B = w cross(N, T),   n = normalize(t.x T + t.y B + t.z N)
-/// A tangent that is zero or along N is replaced by a tangent of N alone (`tangent_from_normal`); a zero normal is +Z.
-fn normal_tbn(n_tangent: vec3f, normal: vec3f, tangent: vec4f) -> vec3f {
-    let unit_normal = normalize_or(normal, vec3f(0.0, 0.0, 1.0));
-    let across = cross(normal, tangent.xyz);
+/// normal_tbn of a direction `n_tangent` of any length, zero being straight up, where the unit normal is known.
+fn bent_normal(n_tangent: vec3f, normal: vec3f, unit_normal: vec3f, tangent: vec4f) -> vec3f {
+    let across = cross(unit_normal, tangent.xyz);
     // |N x T| <= 1e-6 |N| |T|: the direction of B would be rounding noise, or 0 / 0.
-    let usable = dot(across, across) > 1e-12 * dot(normal, normal) * dot(tangent.xyz, tangent.xyz);
-    let fallback = tangent_from_normal(unit_normal);
-    let t = select(fallback, tangent.xyz, usable);
-    let b = select(cross(unit_normal, fallback), select(across, -across, tangent.w < 0.0), usable);
+    let usable = dot(across, across) > 1e-12 * dot(tangent.xyz, tangent.xyz);
+    let t = select(any_tangent(unit_normal), tangent.xyz, usable);
     let n = select(unit_normal, normal, usable);
-    return normalize_or(n_tangent.x * t + n_tangent.y * b + n_tangent.z * n, unit_normal);
+    let b = f32(select(1.0, -1.0, tangent.w < 0.0)) * cross(n, t);
+    return normalize_or(mat3x3f(t, b, n) * n_tangent, unit_normal);
 }
 
 // ---- math.wgsl
@@ -387,13 +370,20 @@ fn pow5(x: f32) -> f32 {
 /// WGSL leaves its result for NaN open.
 fn normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
     let length2 = dot(v, v);
-    let has_direction = (length2 > LENGTH2_FLOOR) & (length2 < LENGTH2_CEILING);
-    return select(fallback, v * inverseSqrt(length2), has_direction);
+    let has_direction = clamp(length2, LENGTH2_FLOOR, LENGTH2_CEILING) == length2;
+    return select(fallback, normalize(v), has_direction);
+}
+
+/// A unit direction across a unit normal, any.
+fn any_tangent(normal: vec3f) -> vec3f {
+    let aside = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.x) > 0.7);
+    return normalize(cross(normal, aside));
 }
 
 /// The colour with each channel that is NaN or infinite set to 0.
 ///
-/// The last line of every lobe, so that one bad texel stays one dark pixel and does not spread through a filter.
+/// What a shader ends in, so that one bad texel stays one dark pixel and does not spread through a filter. (The Rust lobes,
+/// which are called one by one, each end in it.)
 fn finite_or_zero(c: vec3f) -> vec3f {
     return select(vec3f(0.0), c, abs(c) < vec3f(FINITE_CEILING));
 }
@@ -426,5 +416,5 @@ fn node_textures_image(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f
 
 /// The normal map by the tangent frame of the mesh.
 fn node_textures_normal_map_tbn(color: vec3f, strength: f32, flip_y: bool, normal: vec3f, tangent: vec4f) -> vec3f {
-    return normal_tbn(normal_from_texel(color, strength, flip_y), normal, tangent);
+    return bent_normal(tilt_from_texel(color, strength, flip_y), normal, normal, tangent);
 }

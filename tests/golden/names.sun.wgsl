@@ -64,6 +64,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let directional_light = directional_light_sample(lights.directional, in.world_position);
     var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * directional_light.illuminance;
     radiance += specular_eval(frame, directional_light.dir, specular) * directional_light.illuminance;
+    radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
 }
 
@@ -111,14 +112,15 @@ struct Half {
     l_dot_h: f32,
     /// sin^2 of the angle between n and h, as |n x h|^2.
     sin2_theta_h: f32,
+    /// h, unit; zero where there is none.
+    h: vec3f,
 }
 
 /// The frame of a unit shading normal and a unit direction to the viewer, with n.v held in [N_DOT_V_FLOOR, 1].
 ///
 /// NaN in either gives n_dot_v = N_DOT_V_FLOOR.
 fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
-    let n_dot_v = dot(normal, view_dir);
-    return Frame(normal, view_dir, select(N_DOT_V_FLOOR, min(n_dot_v, 1.0), n_dot_v > N_DOT_V_FLOOR));
+    return Frame(normal, view_dir, clamp(dot(normal, view_dir), N_DOT_V_FLOOR, 1.0));
 }
 
 /// The half vector of the unit direction `dir` to a light.
@@ -128,7 +130,6 @@ fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
 /// below an angle of 3e-4, and v.h by a dot product none where l is opposite to v.
 /// Where v + l = 0 there is no half vector: l.h = n.h = 0 and sin^2 = 1, which is h in the tangent plane.
 fn half_from_light(frame: Frame, dir: vec3f) -> Half {
-    let n_dot_l = dot(frame.normal, dir);
     let sum = frame.view_dir + dir;
     let length2 = dot(sum, sum);
     let has_half = length2 > LENGTH2_FLOOR;
@@ -136,10 +137,11 @@ fn half_from_light(frame: Frame, dir: vec3f) -> Half {
     let h = sum * inv_length;
     let sine = cross(frame.normal, h);
     return Half(
-        select(0.0, min(n_dot_l, 1.0), n_dot_l > 0.0),
+        saturate(dot(frame.normal, dir)),
         dot(frame.normal, h),
         0.5 * length2 * inv_length,
         select(1.0, dot(sine, sine), has_half),
+        h,
     );
 }
 
@@ -148,7 +150,7 @@ fn half_from_light(frame: Frame, dir: vec3f) -> Half {
 /// Schlick 1994, An Inexpensive BRDF Model for Physically-based Rendering:
 /// F = f0 + (f90 - f0) (1 - l.h)^5.
 fn f_schlick(f0: vec3f, f90: vec3f, l_dot_h: f32) -> vec3f {
-    return f0 + (f90 - f0) * pow5(clamp(1.0 - l_dot_h, 0.0, 1.0));
+    return mix(f0, f90, pow5(max(1.0 - l_dot_h, 0.0)));
 }
 
 // ---- brdf/ggx.wgsl
@@ -168,7 +170,7 @@ const V_FLOOR: f32 = 1e-36;
 ///
 /// Held in [0, 1]; NaN gives 1.
 fn alpha_from_perceptual_roughness(perceptual_roughness: f32) -> f32 {
-    let r = select(1.0, max(perceptual_roughness, 0.0), perceptual_roughness < 1.0);
+    let r = saturate(perceptual_roughness);
     return r * r;
 }
 
@@ -188,8 +190,8 @@ fn d_ggx(n_dot_h: f32, sin2_theta_h: f32, alpha: f32) -> f32 {
 /// V = 1/2 / (n.l sqrt(alpha^2 + (1 - alpha^2)(n.v)^2) + n.v sqrt(alpha^2 + (1 - alpha^2)(n.l)^2)).
 fn v_smith_ggx_correlated(n_dot_v: f32, n_dot_l: f32, l_dot_h: f32, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
-    let view = n_dot_l * sqrt(a2 + (1.0 - a2) * n_dot_v * n_dot_v);
-    let light = n_dot_v * sqrt(a2 + (1.0 - a2) * n_dot_l * n_dot_l);
+    let view = n_dot_l * sqrt(mix(n_dot_v * n_dot_v, 1.0, a2));
+    let light = n_dot_v * sqrt(mix(n_dot_l * n_dot_l, 1.0, a2));
     return 0.5 / max(view + light, V_FLOOR);
 }
 
@@ -207,7 +209,7 @@ struct Diffuse {
 fn diffuse_eval(frame: Frame, l: vec3f, p: Diffuse) -> vec3f {
     let h = half_from_light(frame, l);
     let brdf = diffuse_lambert(p.color, frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.perceptual_roughness);
-    return finite_or_zero(brdf * h.n_dot_l);
+    return brdf * h.n_dot_l;
 }
 
 // ---- brdf/lobe_specular.wgsl
@@ -227,11 +229,15 @@ struct Specular {
 ///
 /// V n.l is taken first: it is at most 1/2 / max(alpha, n.v), while V alone is infinite at n.l = n.v = 0.
 fn specular_eval(frame: Frame, l: vec3f, p: Specular) -> vec3f {
+    let f = f_schlick(p.f0, p.f90, half_from_light(frame, l).l_dot_h);
+    return f * specular_lit(frame, l, p);
+}
+
+/// specular_eval without its F: D V n.l.
+fn specular_lit(frame: Frame, l: vec3f, p: Specular) -> f32 {
     let h = half_from_light(frame, l);
     let d = d_ggx(h.n_dot_h, h.sin2_theta_h, p.alpha);
-    let v = v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha);
-    let f = f_schlick(p.f0, p.f90, h.l_dot_h);
-    return finite_or_zero(f * (v * h.n_dot_l * d));
+    return v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha) * h.n_dot_l * d;
 }
 
 // ---- entry/transform.wgsl
@@ -251,11 +257,11 @@ fn normal_in_world(normal_from_object: mat3x3f, normal: vec3f) -> vec3f {
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
+    let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
@@ -310,13 +316,14 @@ fn pow5(x: f32) -> f32 {
 /// WGSL leaves its result for NaN open.
 fn normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
     let length2 = dot(v, v);
-    let has_direction = (length2 > LENGTH2_FLOOR) & (length2 < LENGTH2_CEILING);
-    return select(fallback, v * inverseSqrt(length2), has_direction);
+    let has_direction = clamp(length2, LENGTH2_FLOOR, LENGTH2_CEILING) == length2;
+    return select(fallback, normalize(v), has_direction);
 }
 
 /// The colour with each channel that is NaN or infinite set to 0.
 ///
-/// The last line of every lobe, so that one bad texel stays one dark pixel and does not spread through a filter.
+/// What a shader ends in, so that one bad texel stays one dark pixel and does not spread through a filter. (The Rust lobes,
+/// which are called one by one, each end in it.)
 fn finite_or_zero(c: vec3f) -> vec3f {
     return select(vec3f(0.0), c, abs(c) < vec3f(FINITE_CEILING));
 }

@@ -65,6 +65,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     var radiance = diffuse_environment(diffuse, irradiance);
     let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(parameters.perceptual_roughness, view.environment_levels));
     radiance += specular_environment(specular, reflection, dfg);
+    radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
 }
 
@@ -107,8 +108,7 @@ struct Frame {
 ///
 /// NaN in either gives n_dot_v = N_DOT_V_FLOOR.
 fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
-    let n_dot_v = dot(normal, view_dir);
-    return Frame(normal, view_dir, select(N_DOT_V_FLOOR, min(n_dot_v, 1.0), n_dot_v > N_DOT_V_FLOOR));
+    return Frame(normal, view_dir, clamp(dot(normal, view_dir), N_DOT_V_FLOOR, 1.0));
 }
 
 // ---- brdf/ggx.wgsl
@@ -117,7 +117,7 @@ fn frame_from_normal(normal: vec3f, view_dir: vec3f) -> Frame {
 ///
 /// Held in [0, 1]; NaN gives 1.
 fn alpha_from_perceptual_roughness(perceptual_roughness: f32) -> f32 {
-    let r = select(1.0, max(perceptual_roughness, 0.0), perceptual_roughness < 1.0);
+    let r = saturate(perceptual_roughness);
     return r * r;
 }
 
@@ -133,7 +133,7 @@ struct Diffuse {
 
 /// Radiance reflected from an environment: color times irradiance over pi. Exact for Lambert's BRDF.
 fn diffuse_environment(p: Diffuse, irradiance_over_pi: vec3f) -> vec3f {
-    return finite_or_zero(p.color * irradiance_over_pi);
+    return p.color * irradiance_over_pi;
 }
 
 // ---- brdf/lobe_specular.wgsl
@@ -160,7 +160,7 @@ fn specular_direction(frame: Frame, mirror_dir: vec3f, perceptual_roughness: f32
 /// Karis 2013, Real Shading in Unreal Engine 4, the split sum: prefiltered radiance about the reflection times
 /// the lobe's directional albedo.
 fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) -> vec3f {
-    return finite_or_zero(prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg));
+    return prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg);
 }
 
 // ---- entry/transform.wgsl
@@ -181,9 +181,9 @@ fn normal_in_world(normal_from_object: mat3x3f, normal: vec3f) -> vec3f {
 /// Level that holds a perceptual roughness when level 0 is the unfiltered environment, level 1 is prefiltered for 0.1, the
 /// last for 1, and each between them for the same multiple of the one before.
 fn lod_geometric(perceptual_roughness: f32, levels: f32) -> f32 {
-    let above = 1.0 + (levels - 2.0) * (log2(max(10.0 * perceptual_roughness, 1.0)) / log2(10.0));
-    let below = 10.0 * perceptual_roughness;
-    return min(select(above, below, below < 1.0), levels - 1.0);
+    let place = 10.0 * perceptual_roughness;
+    let above = (levels - 2.0) * (log2(max(place, 1.0)) / log2(10.0));
+    return min(min(place, 1.0) + above, levels - 1.0);
 }
 
 /// Radiance that arrives from a direction, prefiltered as much as the level says; mixed linearly between levels.
@@ -196,13 +196,14 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
 /// as a derivative; `t` is 0 at `near` and 1 at `far`.
 /// Where a lobe meets a lamp the light goes with a power of its width, falling in the middle and rising outside, so that
 /// logarithms are mixed: of the colours linearly, and of their sum by Hermite's cubic, which also follows the slopes.
-/// 1e-7, less than half precision resolves, keeps black finite.
+/// Black is taken as 1e-7, about the least that half precision holds.
 fn mix_levels(near: vec4f, far: vec4f, t: f32) -> vec3f {
-    let tiny = 1e-7;
     let one = vec3f(1.0);
-    let rise = log2((dot(far.rgb, one) + tiny) / (dot(near.rgb, one) + tiny));
-    let bend = t * (1.0 - t) * ((1.0 - t) * (near.a - rise) - t * (far.a - rise));
-    return max(exp2(mix(log2(near.rgb + tiny), log2(far.rgb + tiny), t) + bend) - tiny, vec3f(0.0));
+    let n = max(near.rgb, vec3f(1e-7));
+    let f = max(far.rgb, vec3f(1e-7));
+    let rise = log2(dot(f, one) / dot(n, one));
+    let bend = t * (1.0 - t) * mix(near.a - rise, rise - far.a, t);
+    return pow(f / n, vec3f(t)) * n * exp2(bend);
 }
 
 /// Radiance that arrives from a direction, prefiltered as much as the level says, from levels with slopes: see
@@ -217,11 +218,11 @@ fn environment_sample_hermite(cube: texture_cube<f32>, cube_sampler: sampler, di
 
 /// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
-/// along x for the fourth root of n_dot_v and along y for the square root of the perceptual roughness: both ends of each
+/// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
     let size = vec2f(textureDimensions(table));
-    let place = sqrt(vec2f(sqrt(saturate(n_dot_v)), saturate(perceptual_roughness)));
+    let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
     let uv = (place * (size - 1.0) + 0.5) / size;
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
@@ -243,13 +244,14 @@ const FINITE_CEILING: f32 = 3e38;
 /// WGSL leaves its result for NaN open.
 fn normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
     let length2 = dot(v, v);
-    let has_direction = (length2 > LENGTH2_FLOOR) & (length2 < LENGTH2_CEILING);
-    return select(fallback, v * inverseSqrt(length2), has_direction);
+    let has_direction = clamp(length2, LENGTH2_FLOOR, LENGTH2_CEILING) == length2;
+    return select(fallback, normalize(v), has_direction);
 }
 
 /// The colour with each channel that is NaN or infinite set to 0.
 ///
-/// The last line of every lobe, so that one bad texel stays one dark pixel and does not spread through a filter.
+/// What a shader ends in, so that one bad texel stays one dark pixel and does not spread through a filter. (The Rust lobes,
+/// which are called one by one, each end in it.)
 fn finite_or_zero(c: vec3f) -> vec3f {
     return select(vec3f(0.0), c, abs(c) < vec3f(FINITE_CEILING));
 }

@@ -29,6 +29,8 @@ pub struct Half<R> {
     pub l_dot_h: R,
     /// sin^2 of the angle between n and h, as |n x h|^2.
     pub sin2_theta_h: R,
+    /// h, unit; zero where there is none.
+    pub h: [R; 3],
 }
 
 /// The frame of a unit shading normal and a unit direction to the viewer, with n.v held in [[`N_DOT_V_FLOOR`], 1].
@@ -63,5 +65,6 @@ pub fn half_from_light<R: Real>(frame: Frame<R>, dir: [R; 3]) -> Half<R> {
         n_dot_h: dot(frame.normal, h),
         l_dot_h: R::of(0.5) * length2 * inv_length,
         sin2_theta_h: R::choose(has_half, dot(sine, sine), R::ONE),
+        h,
     }
 }

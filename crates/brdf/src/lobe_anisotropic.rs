@@ -2,9 +2,9 @@
 
 use crate::Real;
 use crate::anisotropic::{d_ggx_anisotropic, v_smith_ggx_anisotropic};
-use crate::frame::{Frame, half_from_light};
+use crate::frame::{Frame, N_DOT_V_FLOOR, half_from_light};
 use crate::fresnel::f_schlick;
-use crate::math::{finite_or_zero, normalize_or};
+use crate::math::{any_tangent, finite_or_zero, normalize_or};
 use crate::vector::{add, cross, dot, scale};
 
 /// Lookups of an environment along the stretched highlight.
@@ -56,10 +56,8 @@ pub fn anisotropic_alphas_openpbr<R: Real>(perceptual_roughness: R, anisotropy: 
 #[inline]
 pub fn anisotropic_tangent<R: Real>(normal: [R; 3], tangent: [R; 4], rotation: R) -> [R; 3] {
     let [x, y, z, handedness] = tangent;
-    let flat = |v: [R; 3]| add(v, scale(normal, -dot(normal, v)));
-    let is_x = R::of(0.7).lt(normal[0].abs());
-    let aside = [R::choose(is_x, R::ZERO, R::ONE), R::choose(is_x, R::ONE, R::ZERO), R::ZERO];
-    let t = normalize_or(flat([x, y, z]), normalize_or(flat(aside), aside));
+    let t = [x, y, z];
+    let t = normalize_or(add(t, scale(normal, -dot(normal, t))), any_tangent(normal));
     let side = R::choose(handedness.lt(R::ZERO), -R::ONE, R::ONE);
     let (sin, cos) = rotation.sin_cos();
     add(scale(t, cos), scale(cross(normal, t), side * sin))
@@ -72,10 +70,11 @@ pub fn anisotropic_tangent<R: Real>(normal: [R; 3], tangent: [R; 4], rotation: R
 pub fn anisotropic_eval<R: Real>(frame: Frame<R>, l: [R; 3], p: Anisotropic<R>) -> [R; 3] {
     let half = half_from_light(frame, l);
     let bitangent = cross(frame.normal, p.tangent);
-    let h = normalize_or(add(frame.view_dir, l), [R::ZERO; 3]);
-    let h_in_tangent = [dot(p.tangent, h), dot(bitangent, h), half.n_dot_h];
-    let view = [dot(p.tangent, frame.view_dir), dot(bitangent, frame.view_dir), frame.n_dot_v];
-    let light = [dot(p.tangent, l), dot(bitangent, l), half.n_dot_l];
+    let h_in_tangent = [dot(p.tangent, half.h), dot(bitangent, half.h), half.n_dot_h];
+    // Of v only n.v is held, as in the frame.
+    let n_dot_v = dot(frame.normal, frame.view_dir).max(R::of(N_DOT_V_FLOOR));
+    let view = [dot(p.tangent, frame.view_dir), dot(bitangent, frame.view_dir), n_dot_v];
+    let light = [dot(p.tangent, l), dot(bitangent, l), dot(frame.normal, l)];
     let d = d_ggx_anisotropic(h_in_tangent, p.alpha_t, p.alpha_b);
     let v = v_smith_ggx_anisotropic(view, light, p.alpha_t, p.alpha_b);
     let f = f_schlick(p.f0, p.f90, half.l_dot_h);
@@ -137,30 +136,28 @@ pub fn anisotropic_strip<R: Real>(
 ) -> AnisotropicStrip<R> {
     let one = R::ONE;
     let spread2 = (alpha_t * alpha_t - alpha_b * alpha_b).max(R::ZERO);
-    let spread = spread2.sqrt();
     let apart = spread2 / (alpha_t * alpha_t).max(R::of(1e-18));
-    let x = (R::of(2.0) * index + one) / R::of(f64::from(ANISOTROPIC_STRIPS)) - one;
+    let along = dot(frame.view_dir, tangent);
+    let strips = f64::from(ANISOTROPIC_STRIPS);
+    let x = R::of(2.0 / strips) * index + R::of(1.0 / strips - 1.0);
     let widening2 = one / (one - x * x);
-    let widening = widening2.sqrt();
-    let slope = spread * x * widening;
+    let slope = x * (spread2 * widening2).sqrt();
     let cos_h = one / (one + slope * slope).sqrt();
     let h = scale(add(frame.normal, scale(tangent, slope)), cos_h);
-    let axis = scale(add(tangent, scale(frame.normal, -slope)), cos_h);
-    let v_dot_h = dot(frame.view_dir, h);
-    let dir = add(scale(h, R::of(2.0) * v_dot_h), scale(frame.view_dir, -one));
-    let lean = dot(frame.view_dir, axis);
-    let aside = dot(frame.view_dir, cross(frame.normal, tangent));
-    let least = R::of(1e-4);
-    let across = one + ((one - lean * lean).max(least).sqrt() - one) * apart;
-    let gap2 = spread2 * widening2 * widening2 * widening2 * (cos_h * cos_h) * (one - aside * aside).max(least);
-    let width2 = alpha_b * alpha_b * (one + (widening2 - one) * apart) * across * across;
+    let dir = add(scale(h, R::of(2.0) * dot(frame.view_dir, h)), scale(frame.view_dir, -one));
+    let lean = (along - slope * frame.n_dot_v) * cos_h;
+    let across = alpha_b * (one + ((one - lean * lean).max(R::of(1e-4)).sqrt() - one) * apart);
+    // 1 less the square of what of v lies across the strips.
+    let aside = along * along + frame.n_dot_v * frame.n_dot_v;
+    let gap = widening2 * cos_h;
     // 0.2 of the gap 2 / ANISOTROPIC_STRIPS in x, squared.
-    let alpha2 = (width2 + R::of(0.0064) * gap2) * (cos_h * cos_h);
-    let weight = dot(frame.normal, dir).max(R::of(1e-3));
+    let gap2 = R::of(0.0064) * gap * gap * widening2 * (spread2 * aside);
+    let alpha2 = (across * across * (one + (widening2 - one) * apart) + gap2) * (cos_h * cos_h);
     AnisotropicStrip {
         dir,
         perceptual_roughness: alpha2.min(one).sqrt().sqrt(),
-        weight: R::choose(R::ZERO.lt(v_dot_h), weight, R::of(1e-3)),
+        // Where v.h < 0, n.l is, too.
+        weight: dot(frame.normal, dir).max(R::of(1e-3)),
     }
 }
 

@@ -124,10 +124,15 @@ pub fn transmission_thin_compensation<R: Real>(f0: R, dfg: [R; 2]) -> R {
 #[inline]
 pub fn transmission_direction<R: Real>(frame: Frame<R>, eta: R) -> [R; 3] {
     let inv_eta = R::ONE / eta.max(R::of(1e-6));
-    let cos2 = R::ONE - inv_eta * inv_eta * (R::ONE - frame.n_dot_v * frame.n_dot_v);
-    let along = inv_eta * frame.n_dot_v - cos2.max(R::ZERO).sqrt();
+    let along = inv_eta * frame.n_dot_v - refracted_cosine(frame.n_dot_v, inv_eta);
     let t = add(scale(frame.view_dir, -inv_eta), scale(frame.normal, along));
     normalize_or(t, scale(frame.normal, -R::ONE))
+}
+
+/// The cosine of v refracted by the smooth surface, Snell's law; 0 where it is totally reflected.
+#[inline]
+fn refracted_cosine<R: Real>(n_dot_v: R, inv_eta: R) -> R {
+    (R::ONE - inv_eta * inv_eta * (R::ONE - n_dot_v * n_dot_v)).max(R::ZERO).sqrt()
 }
 
 /// One lookup of an environment through a surface.
@@ -151,8 +156,9 @@ pub fn transmission_lookup<R: Real>(frame: Frame<R>, eta: R, alpha: R) -> Transm
     let leaning = normalize_or(add(frame.normal, scale(aside, alpha)), frame.normal);
     let facet = frame_from_normal(leaning, frame.view_dir);
     let dir = transmission_direction(facet, eta);
-    let cos_t = (-dot(facet.normal, dir)).clamp(R::of(0.01), R::ONE);
-    let turn = (cos_t - facet.n_dot_v / eta.max(R::of(1e-6))).abs();
+    let inv_eta = R::ONE / eta.max(R::of(1e-6));
+    let cos_t = refracted_cosine(facet.n_dot_v, inv_eta).max(R::of(0.01));
+    let turn = (cos_t - facet.n_dot_v * inv_eta).abs();
     let width = (R::of(0.45) * alpha * turn / cos_t.sqrt()).clamp(R::ZERO, R::ONE);
     TransmissionLookup { dir, perceptual_roughness: width.sqrt() }
 }

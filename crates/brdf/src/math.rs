@@ -1,6 +1,7 @@
 //! Constants and small functions that the whole library leans on.
 
-use crate::{Real, vector::dot, vector::scale};
+use crate::Real;
+use crate::vector::{cross, dot, scale};
 
 /// pi.
 pub const PI: f64 = core::f64::consts::PI;
@@ -32,6 +33,15 @@ pub fn normalize_or<R: Real>(v: [R; 3], fallback: [R; 3]) -> [R; 3] {
     let has_direction = R::of(LENGTH2_FLOOR).lt(length2) & length2.lt(R::of(LENGTH2_CEILING));
     let unit = scale(v, R::ONE / length2.sqrt());
     [0, 1, 2].map(|i| R::choose(has_direction, unit[i], fallback[i]))
+}
+
+/// A unit direction across a unit normal, any.
+#[inline]
+pub(crate) fn any_tangent<R: Real>(normal: [R; 3]) -> [R; 3] {
+    let is_x = R::of(0.7).lt(normal[0].abs());
+    let aside = [R::choose(is_x, R::ZERO, R::ONE), R::choose(is_x, R::ONE, R::ZERO), R::ZERO];
+    let across = cross(normal, aside);
+    scale(across, R::ONE / dot(across, across).sqrt())
 }
 
 /// The colour with each channel that is NaN, infinite or beyond +-3e38 set to 0. Exact for all others.

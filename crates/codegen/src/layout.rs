@@ -42,17 +42,16 @@ impl LightKind {
     pub fn stride(self) -> u32 {
         match self {
             LightKind::Directional | LightKind::Point => 32,
-            LightKind::Spot => 64,
+            LightKind::Spot => 48,
         }
     }
 
-    /// Component counts of the struct's members, each of which starts on 16 bytes:
-    /// directional (direction, illuminance), point (position, intensity),
-    /// spot (position, intensity, direction, (cosine scale, cosine offset)).
+    /// Numbers of the struct in each 16 bytes: directional (direction), (illuminance); point (position), (intensity);
+    /// spot (position, cosine scale), (intensity, cosine offset), (direction).
     fn member_components(self) -> &'static [usize] {
         match self {
             LightKind::Directional | LightKind::Point => &[3, 3],
-            LightKind::Spot => &[3, 3, 3, 2],
+            LightKind::Spot => &[4, 4, 3],
         }
     }
 }
@@ -195,7 +194,7 @@ mod tests {
     fn offsets_are_nagas() {
         let block = block();
         let mut text = String::from(
-            "struct SpotLight { position: vec3f, intensity: vec3f, direction: vec3f, cos_scale_offset: vec2f }\n\
+            "struct SpotLight { position: vec3f, cos_scale: f32, intensity: vec3f, cos_offset: f32, direction: vec3f }\n\
              struct DirectionalLight { direction: vec3f, illuminance: vec3f }\nstruct B {",
         );
         for member in &block.members {
@@ -214,7 +213,7 @@ mod tests {
         let (offsets, span) = size_of("B");
         assert_eq!(block.members.iter().map(|m| m.offset).collect::<Vec<_>>(), offsets);
         assert_eq!(block.size, span);
-        assert_eq!(size_of("SpotLight"), (vec![0, 16, 32, 48], LightKind::Spot.stride()));
+        assert_eq!(size_of("SpotLight"), (vec![0, 12, 16, 28, 32], LightKind::Spot.stride()));
         assert_eq!(size_of("DirectionalLight"), (vec![0, 16], LightKind::Directional.stride()));
     }
 
@@ -233,9 +232,9 @@ mod tests {
         let float = |offset: usize| f32::from_le_bytes(bytes[offset..offset + 4].try_into().unwrap());
         assert_eq!((float(0), float(16), float(24), float(28)), (1.0, 2.0, 4.0, 5.0));
         assert_eq!((float(32), float(40), float(44), float(48), float(64 + 8)), (10.0, 12.0, 0.0, 13.0, 18.0));
-        // Second spot light: its cosine scale and offset are its tenth and eleventh numbers.
-        assert_eq!((float(80), float(80 + 64), float(80 + 64 + 48), float(80 + 64 + 52)), (20.0, 31.0, 40.0, 41.0));
-        assert_eq!(bytes[208..212], 1_i32.to_le_bytes());
+        // Second spot light: its cosine scale and offset are its fourth and eighth numbers.
+        assert_eq!((float(80), float(80 + 48), float(80 + 48 + 12), float(80 + 48 + 28)), (20.0, 31.0, 34.0, 38.0));
+        assert_eq!(bytes[176..180], 1_i32.to_le_bytes());
         let short = block.pack(|_, numbers| numbers.push(0.0)).unwrap_err();
         assert_eq!(short.to_string(), "the uniform `B.b` takes 3 numbers and was given 1");
     }

@@ -22,8 +22,11 @@ const TRANSFORM_FILE: &str = "entry/transform.wgsl";
 const EXCHANGED_TERMS: [&str; 5] = ["d", "v", "fresnel", "diffuse", "normal_decode"];
 
 /// Functions that follow a chosen method: what writes the texels of a normal map has to be what reads them.
-const FOLLOWERS: [(&str, &str, &str); 1] =
-    [("normal_from_texel_snorm", "texel_from_normal", "texel_from_normal_snorm")];
+const FOLLOWERS: [(&str, &str, &str); 3] = [
+    ("normal_from_texel_snorm", "texel_from_normal", "texel_from_normal_snorm"),
+    ("normal_from_texel_snorm", "tilt_from_texel", "normal_from_texel_snorm"),
+    ("normal_from_texel_two_channel", "tilt_from_texel", "normal_from_texel_two_channel"),
+];
 
 /// The items of a library by name, and what was found out about them.
 pub(crate) struct Index {

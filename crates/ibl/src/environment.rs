@@ -53,16 +53,13 @@ pub fn environment_sample(levels: &[Cube], dir: [f64; 3], lod: f64) -> [f32; 3] 
 ///
 /// Where a lobe meets a lamp the light goes with a power of its width, falling in the middle and rising outside, so that
 /// logarithms are mixed: of the colours linearly, and of their sum by Hermite's cubic, which also follows the slopes.
-/// 1e-7, less than half precision resolves, keeps black finite.
+/// Black is taken as 1e-7, about the least that half precision holds.
 pub fn mix_levels<R: Real>(near: [R; 4], far: [R; 4], t: R) -> [R; 3] {
-    let tiny = R::of(1e-7);
-    let sum = |texel: [R; 4]| texel[0] + texel[1] + texel[2] + tiny;
-    let rise = (sum(far) / sum(near)).log2();
+    let bright = |texel: [R; 4]| [0, 1, 2].map(|i| texel[i].max(R::of(1e-7)));
+    let (n, f) = (bright(near), bright(far));
+    let rise = ((f[0] + f[1] + f[2]) / (n[0] + n[1] + n[2])).log2();
     let bend = t * (R::ONE - t) * ((R::ONE - t) * (near[3] - rise) - t * (far[3] - rise));
-    [0, 1, 2].map(|i| {
-        let (a, b) = ((near[i] + tiny).log2(), (far[i] + tiny).log2());
-        ((a + (b - a) * t + bend).exp2() - tiny).max(R::ZERO)
-    })
+    [0, 1, 2].map(|i| (t * (f[i] / n[i]).log2() + bend).exp2() * n[i])
 }
 
 /// Radiance that arrives from a direction, prefiltered as much as the level says, from levels with slopes: see

@@ -35,22 +35,26 @@ pub fn tangent_from_normal<R: Real>(normal: [R; 3]) -> [R; 3] {
 /// B = w cross(N, T),   n = normalize(t.x T + t.y B + t.z N)
 /// ```
 ///
-/// A tangent that is zero or along N is replaced by a tangent of N alone ([`tangent_from_normal`]); a zero normal is +Z.
+/// A tangent that is zero or along N is replaced by any across N; a zero normal is +Z.
 pub fn normal_tbn<R: Real>(n_tangent: [R; 3], normal: [R; 3], tangent: [R; 4]) -> [R; 3] {
     let unit_normal = normalize_or(normal, plus_z());
+    let normal = if dot(normal, normal) > real(0.0) { normal } else { unit_normal };
     let [x, y, z, w] = tangent;
     let t = [x, y, z];
-    let across = cross(normal, t);
+    let across = cross(unit_normal, t);
     // |N x T| <= 1e-6 |N| |T|: the direction of B would be rounding noise, or 0 / 0.
-    let usable = dot(across, across) > real::<R>(1e-12) * dot(normal, normal) * dot(t, t);
-    let (t, b, n) = if usable {
-        (t, if w < real(0.0) { across.map(|x| -x) } else { across }, normal)
-    } else {
-        let t = tangent_from_normal(unit_normal);
-        (t, cross(unit_normal, t), unit_normal)
-    };
+    let usable = dot(across, across) > real::<R>(1e-12) * dot(t, t);
+    let (t, n) = if usable { (t, normal) } else { (any_tangent(unit_normal), unit_normal) };
+    let b = scale(cross(n, t), if w < real(0.0) { real(-1.0) } else { real(1.0) });
     let sum = add(add(scale(t, n_tangent[0]), scale(b, n_tangent[1])), scale(n, n_tangent[2]));
     normalize_or(sum, unit_normal)
+}
+
+/// A unit direction across a unit normal, any.
+fn any_tangent<R: Real>(normal: [R; 3]) -> [R; 3] {
+    let (zero, one) = (real(0.0), real(1.0));
+    let aside = if normal[0].abs() > real(0.7) { [zero, one, zero] } else { [one, zero, zero] };
+    normalize_or(cross(normal, aside), aside)
 }
 
 /// (cos, sin) of atan2(y, x), without the angle: (x, y) / |(x, y)|. Both zero is the angle 0.

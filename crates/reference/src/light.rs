@@ -38,7 +38,8 @@ impl Lights {
                     position: wide(light.position),
                     intensity: wide(light.intensity),
                     direction: wide(light.direction),
-                    cos_scale_offset: light.cos_scale_offset.map(f64::from),
+                    cos_scale: f64::from(light.cos_scale),
+                    cos_offset: f64::from(light.cos_offset),
                 })
                 .collect(),
         }

@@ -34,12 +34,14 @@ pub struct PointLight<R> {
 pub struct SpotLight<R> {
     /// Where it is, in world space [m].
     pub position: [R; 3],
+    /// Scale that takes the cosine to the axis, with `cos_offset`, to 0 at the outer and 1 at the inner cone.
+    pub cos_scale: R,
     /// Luminous intensity on the axis [cd].
     pub intensity: [R; 3],
+    /// Offset of the scaled cosine.
+    pub cos_offset: R,
     /// Unit direction of the axis, the way the light shines, in world space.
     pub direction: [R; 3],
-    /// Scale and offset that take the cosine to the axis to 0 at the outer and 1 at the inner cone.
-    pub cos_scale_offset: [R; 2],
 }
 
 /// What arrives at a point from a light.
@@ -71,7 +73,7 @@ pub fn point_light_sample<R: Real>(light: PointLight<R>, position: [R; 3]) -> Li
 pub fn spot_light_sample<R: Real>(light: SpotLight<R>, position: [R; 3]) -> LightSample<R> {
     let all_around = point_light_sample(PointLight { position: light.position, intensity: light.intensity }, position);
     let cos_to_axis = -dot(light.direction, all_around.dir);
-    let cone = clamp(cos_to_axis * light.cos_scale_offset[0] + light.cos_scale_offset[1], real(0.0), real(1.0));
+    let cone = clamp(cos_to_axis * light.cos_scale + light.cos_offset, real(0.0), real(1.0));
     LightSample { dir: all_around.dir, illuminance: all_around.illuminance.map(|e| e * (cone * cone)) }
 }
 
@@ -124,8 +126,8 @@ impl LightsByKind {
         let directional = self.directional.iter().flat_map(|light| [light.direction, light.illuminance]);
         let point = self.point.iter().flat_map(|light| [light.position, light.intensity]);
         let spot = self.spot.iter().flat_map(|light| {
-            let vectors = [light.position, light.intensity, light.direction].into_iter().flatten();
-            vectors.chain(light.cos_scale_offset).collect::<Vec<f32>>()
+            let ([x, y, z], [r, g, b]) = (light.position, light.intensity);
+            [x, y, z, light.cos_scale, r, g, b, light.cos_offset].into_iter().chain(light.direction)
         });
         [directional.flatten().collect(), point.flatten().collect(), spot.collect()]
     }
@@ -143,12 +145,16 @@ pub fn lights_by_kind(lights: &[Light]) -> LightsByKind {
             Light::Point { position, intensity } => {
                 sorted.point.push(PointLight { position: position.to_array(), intensity: intensity.to_array() });
             }
-            Light::Spot { position, direction, intensity, inner_angle, outer_angle } => sorted.spot.push(SpotLight {
-                position: position.to_array(),
-                intensity: intensity.to_array(),
-                direction: direction.to_array(),
-                cos_scale_offset: spot_cos_scale_offset(inner_angle, outer_angle),
-            }),
+            Light::Spot { position, direction, intensity, inner_angle, outer_angle } => {
+                let [cos_scale, cos_offset] = spot_cos_scale_offset(inner_angle, outer_angle);
+                sorted.spot.push(SpotLight {
+                    position: position.to_array(),
+                    cos_scale,
+                    intensity: intensity.to_array(),
+                    cos_offset,
+                    direction: direction.to_array(),
+                });
+            }
         }
     }
     sorted
@@ -291,11 +297,13 @@ mod tests {
     #[test]
     fn spot_is_full_inside_and_dark_outside() {
         let (inner, outer) = (20f32.to_radians(), 30f32.to_radians());
+        let [cos_scale, cos_offset] = spot_cos_scale_offset(inner, outer);
         let light = SpotLight {
             position: [0.0, 2.0, 0.0],
+            cos_scale,
             intensity: [4.0f32; 3],
+            cos_offset,
             direction: [0.0, -1.0, 0.0],
-            cos_scale_offset: spot_cos_scale_offset(inner, outer),
         };
         let at = |degrees: f32| {
             let sample = spot_light_sample(light, [2.0 * degrees.to_radians().tan(), 0.0, 0.0]);

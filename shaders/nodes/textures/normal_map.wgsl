@@ -22,7 +22,7 @@ fn node_textures_normal_map(color: vec3f, strength: f32, flip_y: bool, normal: v
 
 /// The normal map by the tangent frame of the mesh.
 fn node_textures_normal_map_tbn(color: vec3f, strength: f32, flip_y: bool, normal: vec3f, tangent: vec4f) -> vec3f {
-    return normal_tbn(normal_from_texel(color, strength, flip_y), normal, tangent);
+    return bent_normal(tilt_from_texel(color, strength, flip_y), normal, normal, tangent);
 }
 
 /// The normal map by a tangent frame from derivatives: it needs no tangent.

@@ -6,6 +6,7 @@ alias f32 = f16;
 alias vec2f = vec2<f16>;
 alias vec3f = vec3<f16>;
 alias vec4f = vec4<f16>;
+alias mat3x3f = mat3x3<f16>;
 const LENGTH2_FLOOR: f16 = 6.2e-5;
 const LENGTH2_CEILING: f16 = 6e4;
 const FINITE_CEILING: f16 = 6.5e4;

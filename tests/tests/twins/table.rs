@@ -52,6 +52,9 @@ pub(crate) struct Twin {
 
 /// Library functions of WGSL without a twin that can be called, and why.
 pub(crate) const WGSL_ONLY: &[(&str, &str)] = &[
+    ("anisotropic_lit", "a part of anisotropic_eval"),
+    ("any_tangent", "private in Rust: compared through normal_tbn"),
+    ("bent_normal", "a part of normal_tbn"),
     ("blended", "private in Rust: compared through the five blend functions"),
     ("cos_sin_atan", "private in Rust: compared through normal_rotation_report"),
     ("cos_sin_atan2", "private in Rust: compared through both normal_rotation functions"),
@@ -59,9 +62,9 @@ pub(crate) const WGSL_ONLY: &[(&str, &str)] = &[
     ("environment_sample", "takes a texture"),
     ("environment_sample_hermite", "takes a texture"),
     ("film_lobe", "private in Rust: compared through f_thin_film"),
+    ("film_loss", "private in Rust: compared through f_thin_film_dielectric"),
+    ("film_real_tones", "private in Rust: compared through f_thin_film_dielectric"),
     ("film_series", "private in Rust: compared through f_thin_film"),
-    ("film_sum", "private in Rust: compared through f_thin_film_dielectric"),
-    ("film_tone", "private in Rust: compared through f_thin_film_dielectric"),
     ("film_tones", "private in Rust: compared through f_thin_film"),
     ("fon", "private in Rust: compared through diffuse_fon"),
     ("fon_g_over_pi_fit", "private in Rust: compared through directional_albedo_fon"),
@@ -70,6 +73,10 @@ pub(crate) const WGSL_ONLY: &[(&str, &str)] = &[
     ("masked_cosine", "private in Rust: compared through both v_smith_beckmann functions"),
     ("octahedral_folded", "private in Rust: compared through the octahedral functions"),
     ("parallax_occlusion", "takes a texture; in Rust a function: compared with traced rays by the crate's tests"),
+    ("refracted_cosine", "private in Rust: compared through transmission_direction"),
+    ("specular_lit", "a part of specular_eval"),
+    ("tangent_across", "anisotropic_tangent for the rotation 0"),
+    ("tilt_from_texel", "a part of normal_from_texel"),
 ];
 
 /// Public functions of the twins' Rust files that WGSL has not, and why.
@@ -189,7 +196,7 @@ pub(crate) const TWINS: &[Twin] = &[
     }),
     twin!("brdf/frame.wgsl" "half_from_light", [Frame, FrontOfLast], 8.0, 1.0, DOUBLE, |x| {
         let h = half_from_light(frame(x), v(x, 7));
-        [h.n_dot_l, h.n_dot_h, h.l_dot_h, h.sin2_theta_h]
+        [h.n_dot_l, h.n_dot_h, h.l_dot_h, h.sin2_theta_h, h.h[0], h.h[1], h.h[2]]
     }),
     twin!("brdf/fresnel.wgsl" "f0_from_ior", [Range(1.0, 3.0)], 6.0, 0.0, DOUBLE, |x| [fresnel::f0_from_ior(x[0])]),
     twin!("brdf/fresnel.wgsl" "f_conductor", [Range(0.05, 4.0), Range(0.0, 8.0), Cosine], 64.0, 0.02, DOUBLE, |x| [fresnel::f_conductor(x[0], x[1], x[2])]),
@@ -292,8 +299,8 @@ pub(crate) const TWINS: &[Twin] = &[
         sample(point_light_sample(PointLight { position: v(x, 0), intensity: v(x, 3) }, v(x, 6)))
     }),
     // Within the cone's edge the light falls to 0 by a difference: errors are those of the light on the axis, <= 1.
-    twin!("light.wgsl" "spot_light_sample", [Color(1.0, 4.0), Color(0.0, 1.0), Unit, Pair(-8.0, 8.0), Point(0.5)], 64.0, 1.0, DOUBLE, |x| {
-        let light = SpotLight { position: v(x, 0), intensity: v(x, 3), direction: v(x, 6), cos_scale_offset: v(x, 9) };
+    twin!("light.wgsl" "spot_light_sample", [Color(1.0, 4.0), Range(-8.0, 8.0), Color(0.0, 1.0), Range(-8.0, 8.0), Unit, Point(0.5)], 64.0, 1.0, DOUBLE, |x| {
+        let light = SpotLight { position: v(x, 0), cos_scale: x[3], intensity: v(x, 4), cos_offset: x[7], direction: v(x, 8) };
         sample(spot_light_sample(light, v(x, 11)))
     }),
     twin!("maps/blend.wgsl" "blend_linear", [UnitUp, UnitUp], 8.0, 1.0, DOUBLE, |x| blend::blend_linear(v(x, 0), v(x, 3))),

@@ -227,7 +227,9 @@ impl Shading<'_, '_, '_> {
     /// A lookup of the prefiltered environment in a direction of its own.
     fn prefiltered(&mut self, direction: &str, roughness: &str) -> Result<String, CodegenError> {
         let methods = &self.parts.needs.methods;
-        let hermite = methods.is("level_map", "hermite");
+        // Up to the first prefiltered level they are mixed linearly, which is what the GPU does by itself.
+        let is_smooth = roughness.parse().is_ok_and(|roughness: f32| roughness <= 0.1);
+        let hermite = methods.is("level_map", "hermite") && !is_smooth;
         let sample = self.writer.library(if hermite { "environment_sample_hermite" } else { "environment_sample" })?;
         let lod = self.writer.library(methods.get("level_map").function.unwrap_or("lod_geometric"))?;
         let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);

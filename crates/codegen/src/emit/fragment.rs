@@ -7,14 +7,13 @@ use halfvector_graph::document::AlphaMode;
 use halfvector_graph::needs::{Needs, ShaderOutput, ToneMap};
 
 use crate::CodegenError;
-use crate::emit::expression::{Entrance, EnvironmentTexture, Names, Uses, ViewMember, Writer, lights_member};
+use crate::emit::expression::{Entrance, EnvironmentTexture, Names, Uses, ViewMember, Writer};
 use crate::emit::text::Text;
 use crate::emit::value::number;
 use crate::ir::Program;
 use crate::link::Index;
 use crate::names::Namer;
 use crate::passes::plan::{Coupling, Plan};
-use crate::reflection::LightKind;
 
 /// What the fragment stage is written from.
 pub(crate) struct FragmentParts<'p, 'a> {
@@ -83,7 +82,7 @@ pub(crate) struct Shading<'s, 'p, 'a> {
     pub(crate) writer: Writer<'p, 'a>,
     lines: Text,
     /// Whether nothing has been added to `radiance` yet.
-    first: bool,
+    pub(crate) first: bool,
     /// What the layers above leave to the coat, and to the base: factors in text.
     pub(crate) over_coat: &'static str,
     pub(crate) over_base: &'static str,
@@ -225,9 +224,14 @@ impl Shading<'_, '_, '_> {
         if !self.parts.plan.anisotropy {
             return self.alpha(&roughness);
         }
-        let (turned, tangent) = (self.writer.library("anisotropic_tangent")?, self.root("tangent", "vec4f(0.0)"));
-        let (strength, rotation) = (self.root("anisotropy", "0.0"), self.root("anisotropy_rotation", "0.0"));
-        self.line(&format!("let tangent = {turned}(frame.normal, {tangent}, {rotation});"));
+        let (tangent, rotation) = (self.root("tangent", "vec4f(0.0)"), self.root("anisotropy_rotation", "0.0"));
+        let strength = self.root("anisotropy", "0.0");
+        let turned = if rotation == "0.0" {
+            format!("{}(frame.normal, {tangent})", self.writer.library("tangent_across")?)
+        } else {
+            format!("{}(frame.normal, {tangent}, {rotation})", self.writer.library("anisotropic_tangent")?)
+        };
+        self.line(&format!("let tangent = {turned};"));
         let (alphas, floored) = (self.writer.library("anisotropic_alphas_gltf")?, self.floored(&roughness)?);
         self.line(&format!("let alphas = {alphas}({floored}, {strength});"));
         Ok("tangent, alphas.x, alphas.y".into())
@@ -330,7 +334,7 @@ impl Shading<'_, '_, '_> {
     }
 
     /// The split sum's pair of a cosine at a roughness.
-    fn dfg(&mut self, cosine: &str, roughness: &str) -> Result<String, CodegenError> {
+    pub(crate) fn dfg(&mut self, cosine: &str, roughness: &str) -> Result<String, CodegenError> {
         if let Some(fit) = self.parts.needs.methods.get("dfg").function {
             return Ok(format!("{}({cosine}, {roughness})", self.writer.library(fit)?));
         }
@@ -339,7 +343,7 @@ impl Shading<'_, '_, '_> {
     }
 
     /// f0 and f90 of the interface over the diffuse base.
-    fn dielectric(&self) -> (String, String) {
+    pub(crate) fn dielectric(&self) -> (String, String) {
         (self.root("dielectric_f0", "0.04"), self.root("dielectric_f90", "1.0"))
     }
 
@@ -347,142 +351,6 @@ impl Shading<'_, '_, '_> {
     fn dielectric_colors(&self) -> (String, String) {
         let (f0, f90) = self.dielectric();
         (format!("vec3f({f0})"), format!("vec3f({f90})"))
-    }
-
-    fn lights(&mut self) -> Result<(), CodegenError> {
-        let plan = self.parts.plan;
-        for &(kind, count) in &plan.lights {
-            self.writer.uses.lights = true;
-            let sample = self.writer.library(match kind {
-                LightKind::Directional => "directional_light_sample",
-                LightKind::Point => "point_light_sample",
-                LightKind::Spot => "spot_light_sample",
-            })?;
-            let member = lights_member(kind);
-            // A directional light is the same everywhere: for it alone no position is interpolated.
-            let position = if kind == LightKind::Directional && !plan.looks_at_view {
-                "vec3f(0.0)".to_owned()
-            } else {
-                self.writer.member("world_position")
-            };
-            if count == 1 {
-                let light = format!("{member}_light");
-                self.line(&format!("let {light} = {sample}(lights.{member}, {position});"));
-                for line in self.light_lines(&light)? {
-                    self.line(&line);
-                }
-                for term in self.light_terms(&light)? {
-                    self.add(&term);
-                }
-            } else {
-                if std::mem::take(&mut self.first) {
-                    self.line("var radiance = vec3f(0.0);");
-                }
-                self.line(&format!("for (var i = 0u; i < {count}u; i++) {{"));
-                self.line(&format!("    let light = {sample}(lights.{member}[i], {position});"));
-                for line in self.light_lines("light")? {
-                    self.line(&format!("    {line}"));
-                }
-                for term in self.light_terms("light")? {
-                    self.line(&format!("    radiance += {term};"));
-                }
-                self.line("}");
-            }
-        }
-        Ok(())
-    }
-
-    /// What several terms of a light share: the split sum's pair towards it, and what the film reflects of it.
-    fn light_lines(&mut self, light: &str) -> Result<Vec<String>, CodegenError> {
-        let plan = self.parts.plan;
-        let mut lines = Vec::new();
-        if plan.reads_light_dfg() {
-            let roughness = self.specular_roughness.clone();
-            let lookup = self.dfg(&format!("dot(frame.normal, {light}.dir)"), &roughness)?;
-            lines.push(format!("let {light}_dfg = {lookup};"));
-        }
-        if plan.thin_film {
-            let (fresnel, half) = (self.writer.library("thin_film_fresnel")?, self.writer.library("half_from_light")?);
-            let (f0, f90) = (self.root("f0", "vec3f(0.04)"), self.root("f90", "vec3f(1.0)"));
-            let cosine = format!("{half}(frame, {light}.dir).l_dot_h");
-            lines.push(format!("let {light}_film = {fresnel}({f0}, {f90}, film, {cosine});"));
-        }
-        Ok(lines)
-    }
-
-    /// The specular lobe's parameters for one light: under a film the reflectances are that light's own.
-    fn specular_of(&mut self, light: &str) -> Result<String, CodegenError> {
-        let plan = self.parts.plan;
-        if !plan.thin_film {
-            return Ok("specular".into());
-        }
-        let lobe = self.writer.library(if plan.anisotropy { "Anisotropic" } else { "Specular" })?;
-        let widths = if plan.anisotropy { "tangent, alphas.x, alphas.y" } else { "specular.alpha" };
-        Ok(format!("{lobe}({light}_film, {light}_film, {widths})"))
-    }
-
-    /// What one light through the surface is multiplied by: what brings back the loss of single scattering, and for a body
-    /// eta^2, for light that enters it leaves it again. An environment's lookup has both already.
-    fn transmission_gain(&mut self) -> Result<Option<String>, CodegenError> {
-        let plan = self.parts.plan;
-        if plan.lights.is_empty() {
-            return Ok(None);
-        }
-        let gains = !self.parts.needs.methods.is("compensation", "none");
-        Ok(match (plan.thin_walled, gains) {
-            (true, false) => None,
-            (true, true) => {
-                let f0 = self.root("dielectric_f0", "0.0");
-                Some(format!("{}({f0}, dfg)", self.writer.library("transmission_thin_compensation")?))
-            }
-            (false, false) => Some("transmission.eta * transmission.eta".to_owned()),
-            (false, true) => {
-                let compensation = self.writer.library("transmission_compensation")?;
-                Some(format!("transmission.eta * transmission.eta * {compensation}(frame.n_dot_v, transmission)"))
-            }
-        })
-    }
-
-    /// What one light adds by each lobe.
-    fn light_terms(&mut self, light: &str) -> Result<Vec<String>, CodegenError> {
-        let plan = self.parts.plan;
-        let mut terms = Vec::new();
-        let (base, coat_frame) = (self.over_base, self.coat_frame);
-        if plan.diffuse {
-            let lobe = self.writer.library("diffuse_eval")?;
-            let mut share = String::new();
-            if plan.coupling == Coupling::Reciprocal {
-                let coupling = self.writer.library("coupling_light")?;
-                let ((f0, f90), roughness) = (self.dielectric(), &self.specular_roughness);
-                share = format!(" * {coupling}({f0}, {f90}, {light}_dfg, {roughness})");
-            }
-            terms.push(format!("{lobe}(frame, {light}.dir, diffuse){share}{base} * {light}.illuminance"));
-        }
-        if plan.specular {
-            let lobe = self.writer.library(if plan.anisotropy { "anisotropic_eval" } else { "specular_eval" })?;
-            let specular = self.specular_of(light)?;
-            let compensated = if plan.compensation { " * compensation" } else { "" };
-            terms.push(format!("{lobe}(frame, {light}.dir, {specular}){compensated}{base} * {light}.illuminance"));
-        }
-        if plan.multiscatter {
-            let lobe = self.writer.library("multiscatter_eval")?;
-            terms.push(format!("{lobe}(frame, {light}.dir, multiscatter, {light}_dfg){base} * {light}.illuminance"));
-        }
-        if plan.transmission {
-            let eval = if plan.thin_walled { "transmission_thin_eval" } else { "transmission_eval" };
-            let lobe = self.writer.library(eval)?;
-            let gain = if self.transmission_gain()?.is_some() { " * transmission_gain" } else { "" };
-            terms.push(format!("{lobe}(frame, {light}.dir, transmission){gain}{base} * {light}.illuminance"));
-        }
-        if plan.coat {
-            let (lobe, above) = (self.writer.library("coat_eval")?, self.over_coat);
-            terms.push(format!("{lobe}({coat_frame}, {light}.dir, coat){above} * {light}.illuminance"));
-        }
-        if plan.sheen {
-            let lobe = self.writer.library("sheen_eval")?;
-            terms.push(format!("{lobe}(frame, {light}.dir, sheen) * {light}.illuminance"));
-        }
-        Ok(terms)
     }
 
     /// Emission, opacity, and the display's coding.
@@ -494,6 +362,10 @@ impl Shading<'_, '_, '_> {
         }
         if self.first {
             self.add("vec3f(0.0)");
+        }
+        if plan.is_lit() {
+            let finite = self.writer.library("finite_or_zero")?;
+            self.line(&format!("radiance = {finite}(radiance);"));
         }
         let mut color = "radiance".to_owned();
         if let ShaderOutput::Display(tone_map) = self.parts.needs.output {

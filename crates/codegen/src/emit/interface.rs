@@ -97,7 +97,7 @@ impl Interface<'_, '_> {
             name: "view".into(),
             vertex: !self.vertex.view.is_empty(),
             fragment: !self.fragment.view.is_empty(),
-            resource: Resource::Uniform(UniformBlock::new("View", members)),
+            resource: Resource::Uniform(block("View", members)),
         });
     }
 
@@ -196,7 +196,7 @@ impl Interface<'_, '_> {
                 (self.names.inputs[number].clone(), UniformType::Value(input.ty), source)
             })
             .collect();
-        (!members.is_empty()).then(|| UniformBlock::new("Parameters", members))
+        (!members.is_empty()).then(|| block("Parameters", members))
     }
 
     fn parameters(&self) -> Vec<ShaderParameter> {
@@ -218,6 +218,13 @@ impl Interface<'_, '_> {
         let def = self.program.nodes[input.node].def;
         def.inputs.iter().find(|i| i.name == input.socket.socket)?.range
     }
+}
+
+/// A block whose members begin with those of the greatest alignment, else in the order given: then HLSL, which aligns no
+/// vector that fits the rest of its 16 bytes, lays them out at the same places, and nothing is padded.
+fn block(struct_name: &str, mut members: Vec<(String, UniformType, UniformSource)>) -> UniformBlock {
+    members.sort_by_key(|(_, ty, _)| std::cmp::Reverse(ty.align()));
+    UniformBlock::new(struct_name, members)
 }
 
 fn fragment_binding(group: u32, binding: u32, name: &str, resource: Resource) -> Binding {

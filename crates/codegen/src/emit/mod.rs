@@ -5,6 +5,7 @@ pub(crate) mod expression;
 mod fragment;
 mod header;
 mod interface;
+mod lights;
 mod material;
 pub(crate) mod text;
 mod value;

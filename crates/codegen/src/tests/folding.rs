@@ -130,12 +130,12 @@ fn live_numbers_change_no_text() {
 fn lobe_weights_specialise_live() {
     let live = |values: &str| made(&material(values, "", ""), &environment(), Fold::Live).wgsl;
     let mixed = live(r#""metallic": 0.5, "emission": [1, 0, 0], "occlusion": 0.5"#);
-    assert!(mixed.contains("f0_from_metallic") && mixed.contains("parameters.surface_emission"));
+    assert!(mixed.contains("parameters.surface_metallic") && mixed.contains("parameters.surface_emission"));
     assert_eq!(mixed, live(r#""metallic": 0.25, "emission": [0, 2, 0], "occlusion": 0.9"#));
     assert!(!live(r#""metallic": 1"#).contains("Diffuse("));
     assert!(!live(r#""specular": 0"#).contains("Specular("));
     assert!(!live("").contains("surface_emission"));
-    assert!(!live("").contains("f0_from_metallic"));
+    assert!(!live("").contains("parameters.surface_metallic"));
     let coated = live(r#""coat_weight": 0.5"#);
     assert!(coated.contains("parameters.surface_coat_weight"));
     assert_eq!(coated, live(r#""coat_weight": 0.9, "coat_roughness": 0.3"#));

@@ -57,7 +57,8 @@ fn brushed_filmed_and_thin() {
     assert!(pixel.contains("tangent_from_derivatives(") && !pixel.contains("world_tangent"), "{pixel}");
 
     let film = exported(&material(r#""thin_film_weight": 1"#, "", ""), &sun()).wgsl;
-    assert!(film.contains("Specular(directional_light_film, directional_light_film, specular.alpha)"), "{film}");
+    let lit = "specular_lit(frame, directional_light.dir, specular) * directional_light_film";
+    assert!(film.contains(lit) && !film.contains("specular_eval("), "{film}");
     assert!(film.contains("energy_compensation("), "a film may reflect much: {film}");
 
     let mut sheet = material(r#""transmission_weight": 1"#, "", "");
@@ -67,6 +68,34 @@ fn brushed_filmed_and_thin() {
         assert_eq!(lit.contains("transmission_thin_eval("), thin_walled, "{lit}");
         let surrounded = exported(&sheet, &environment()).wgsl;
         assert_eq!(surrounded.contains("transmission_lookup("), !thin_walled, "{surrounded}");
+    }
+}
+
+/// One bad texel stays one dark pixel, whatever lobe it meets: what is lit is guarded once, after all is added.
+#[test]
+fn every_lit_shader_ends_in_a_finite_colour() {
+    let emitting = material(r#""emission": [1, 2, 3]"#, "", "");
+    for needs in [sun(), environment(), Needs { point_lights: 3, ..environment() }] {
+        for document in [material("", "", ""), maps(), emitting.clone(), material(ALL_LOBES, "", "")] {
+            for fold in [Fold::Live, Fold::Export] {
+                let text = made(&document, &needs, fold).wgsl;
+                let guard = text.find("radiance = finite_or_zero(radiance);").expect("a guard");
+                assert!(text.rfind("radiance +=").is_none_or(|sum| sum < guard), "{text}");
+            }
+        }
+    }
+    assert!(!exported(&emitting, &nothing()).wgsl.contains("finite_or_zero"), "numbers of the document are checked");
+}
+
+/// Up to the first prefiltered level the GPU mixes levels as the shader would: a coat that is known to be so smooth is read
+/// by one plain lookup.
+#[test]
+fn a_smooth_coat_is_one_plain_lookup() {
+    for (roughness, plain) in [(0.0, true), (0.1, true), (0.11, false)] {
+        let coat = format!(r#""metallic": 1, "coat_weight": 1, "coat_roughness": {roughness}"#);
+        let text = exported(&material(&coat, "", ""), &environment()).wgsl;
+        let coat = text.lines().find(|line| line.contains("let coat_reflection")).expect("the coat's lookup");
+        assert_eq!(coat.contains("environment_sample("), plain, "{coat}");
     }
 }
 

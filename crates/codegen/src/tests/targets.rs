@@ -6,7 +6,7 @@ use std::process::Command;
 use halfvector_graph::document::{AlphaMode, Document};
 use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput, ToneMap};
 
-use super::{environment, exported, maps, material, nothing, sun};
+use super::{environment, exported, maps, material, nothing, sun, with_parameters};
 use crate::target::{OutputFile, TARGETS, export};
 
 fn cases() -> Vec<(&'static str, Document, Needs)> {
@@ -29,7 +29,13 @@ fn cases() -> Vec<(&'static str, Document, Needs)> {
         r#"{"from": "one.color", "to": "surface.base_color"}, {"from": "two.r", "to": "surface.perceptual_roughness"},
            {"from": "two.g", "to": "surface.height"}"#,
     );
+    let twenty = Needs { directional_lights: 6, point_lights: 7, spot_lights: 7, ..environment() };
+    let parameters = ["metallic", "base_color", "coat_weight", "coat_color", "emission", "ior"]
+        .map(|name| format!(r#"{{"name": "{name}", "socket": "surface.{name}"}}"#));
+    let exposed = with_parameters("", "", "", &parameters.join(", "));
     vec![
+        ("exposed", exposed.clone(), sun()),
+        ("twenty", exposed, twenty),
         ("plain", material("", "", ""), sun()),
         ("maps", maps(), environment()),
         ("cutout", cutout, everything),
@@ -48,7 +54,12 @@ fn judge(file: &OutputFile, folder: &Path) {
     let path = folder.join(&file.name);
     std::fs::write(&path, &file.bytes).expect("a file in the temporary folder");
     let verdicts = match file.name.rsplit_once('.').map_or("", |(_, ending)| ending) {
-        "spv" => vec![accepts("spirv-val", &["--target-env", "vulkan1.0"], &path)],
+        "spv" => vec![
+            accepts("spirv-val", &["--target-env", "vulkan1.0"], &path),
+            // Engines of other languages read it by this: it also judges whether blocks are laid out as HLSL lays them out.
+            accepts("spirv-cross", &["--hlsl", "--shader-model", "50"], &path),
+            accepts("spirv-cross", &["--version", "450"], &path),
+        ],
         "vert" | "frag" => vec![accepts("glslangValidator", &[], &path)],
         "hlsl" => [("vert", "vs_main"), ("frag", "fs_main")]
             .iter()
@@ -62,7 +73,7 @@ fn judge(file: &OutputFile, folder: &Path) {
     };
     for verdict in verdicts {
         match verdict {
-            None => println!("skipped: no judge for {} (Debian: glslang-tools, spirv-tools)", file.name),
+            None => println!("skipped: no judge for {} (Debian: glslang-tools, spirv-tools, spirv-cross)", file.name),
             Some(Ok(())) => {}
             Some(Err(words)) => panic!("{}: {words}\n{}", file.name, String::from_utf8_lossy(&file.bytes)),
         }
