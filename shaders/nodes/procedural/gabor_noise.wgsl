@@ -29,7 +29,7 @@ struct GaborOutputs {
 /// Convolution"; Tavernier et al. 2019, "Making Gabor Noise Fast and Normalized".
 /// @node procedural/gabor_noise   @also waves, anisotropic, brushed, fur, ripples, directional
 /// - uv: coordinates [context uv0]
-/// - scale: cells per unit; a wave is two cells long [8; 0..64]
+/// - scale: cells per unit; a train of waves is two cells long [8; 0..64]
 /// - frequency: waves per cell; held in 0..64 [2; 0..8]
 /// - anisotropy: 1 all waves along one direction, 0 along all; held in 0..1 [1; 0..1]
 /// - orientation: direction in which the waves follow each other, counter-clockwise from +u [0; 0..180; deg]
