@@ -25,4 +25,5 @@ mod support;
 mod tidy;
 mod truth;
 mod twins;
+mod vertex_color;
 mod web;

@@ -24,7 +24,7 @@ fn body() -> Mat4 {
 }
 
 /// The body, glowing with what comes out of `node` of these nodes.
-fn scene(nodes: &str, links: &str, node: &str) -> Scene {
+pub(crate) fn scene(nodes: &str, links: &str, node: &str) -> Scene {
     let text = format!(
         r#"{{"halfvector": 1, "name": "Spaces", "nodes": {{{nodes}, "raised": {{"node": "math/multiply_add", "values": {{"b": 1, "c": {RAISED}}}}},
             "surface": {{"node": "surface/surface", "values": {{"base_color": [0, 0, 0], "specular": 0}}}}}},
@@ -65,7 +65,7 @@ fn shown(scene: &Scene) -> Vec<(&'static str, Vec<Vec3>)> {
     all
 }
 
-fn told(scene: &Scene, wanted: Vec3) {
+pub(crate) fn told(scene: &Scene, wanted: Vec3) {
     for (engine, pixels) in shown(scene) {
         assert!(pixels.len() > 8, "{engine}: {} pixels", pixels.len());
         for pixel in pixels {

@@ -24,7 +24,7 @@ pub struct Reflection {
 /// A vertex attribute.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VertexInput {
-    /// `position`, `normal`, `tangent`, `uv0` or `uv1`.
+    /// `position`, `normal`, `tangent`, `uv0`, `uv1` or `color`.
     pub name: String,
     /// `@location`.
     pub location: u32,

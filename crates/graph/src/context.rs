@@ -26,6 +26,12 @@ pub const CONTEXTS: &[Context] = &[
     },
     Context { name: "uv1", ty: Type::Vec2, vertex: true, help: "second texture coordinates" },
     Context {
+        name: "vertex_color",
+        ty: Type::Vec4,
+        vertex: true,
+        help: "colour of the mesh's vertices between them, linear, and alpha; 1 where a mesh has none",
+    },
+    Context {
         name: "world_position",
         ty: Type::Vec3,
         vertex: true,

@@ -110,6 +110,7 @@ fn attribute<F: Float>(mesh: &Mesh, name: &str, component: usize) -> Vec<F> {
         "tangent" => column(&mesh.tangents, component),
         "uv0" => column(&mesh.uv0, component),
         "uv1" => column(&mesh.uv1, component),
+        "color" => column(&mesh.colors, component),
         _ => Vec::new(),
     }
 }

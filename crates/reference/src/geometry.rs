@@ -94,6 +94,8 @@ pub(crate) struct Detail {
     /// Texture coordinates, and the position in object space.
     pub(crate) places: bool,
     pub(crate) tangents: bool,
+    /// Colours of vertices.
+    pub(crate) colors: bool,
 }
 
 /// What is known of a point of a surface.
@@ -110,6 +112,8 @@ pub(crate) struct Point {
     pub(crate) tangent: DVec4,
     pub(crate) uv0: DVec2,
     pub(crate) uv1: DVec2,
+    /// Linear colour and alpha.
+    pub(crate) color: DVec4,
     /// Unit, to the viewer.
     pub(crate) view_dir: DVec3,
 }
@@ -359,6 +363,10 @@ impl<'a> Geometry<'a> {
             let w = f64::from(mesh.tangents[i][3]) * transform.handedness;
             point.tangent = tangent.extend(w);
         }
+        if detail.colors {
+            let colors = vertices.iter().zip(weights).map(|(i, w)| w * DVec4::from(mesh.colors[*i].map(f64::from)));
+            point.color = colors.sum();
+        }
         point
     }
 
@@ -383,6 +391,9 @@ impl<'a> Geometry<'a> {
             let tangent = DVec3::new(local.z, 0.0, -local.x).normalize_or(DVec3::X);
             let tangent = transform.world_from_object.transform_vector3(tangent).normalize_or(DVec3::X);
             point.tangent = tangent.extend(transform.handedness);
+        }
+        if detail.colors {
+            point.color = DVec4::ONE;
         }
         point
     }

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 use halfvector_codegen::input_value;
 use halfvector_codegen::reflection::{Resource, SamplerSource, TextureSource, UniformSource, UniformType};
 use halfvector_graph::document::SurfaceSettings;
@@ -111,6 +111,7 @@ impl Surface {
 enum Context {
     Uv0,
     Uv1,
+    VertexColor,
     WorldPosition,
     ObjectPosition,
     WorldNormal,
@@ -127,6 +128,7 @@ impl Context {
         Some(match name {
             "uv0" => Context::Uv0,
             "uv1" => Context::Uv1,
+            "vertex_color" => Context::VertexColor,
             "world_position" => Context::WorldPosition,
             "object_position" => Context::ObjectPosition,
             "world_normal" => Context::WorldNormal,
@@ -148,6 +150,7 @@ impl Context {
             Context::ViewFromWorld => frames.view.0[component],
             Context::Uv0 => point.uv0[component],
             Context::Uv1 => point.uv1[component],
+            Context::VertexColor => point.color[component],
             Context::WorldPosition => point.position[component],
             Context::ObjectPosition => point.object_position[component],
             Context::WorldNormal => point.normal[component],
@@ -268,6 +271,7 @@ impl Material {
         for (context, _) in &made.inputs {
             made.detail.places |= matches!(context, Context::Uv0 | Context::Uv1 | Context::ObjectPosition);
             made.detail.tangents |= *context == Context::WorldTangent;
+            made.detail.colors |= *context == Context::VertexColor;
         }
         for binding in &shader.reflection.bindings {
             let at = (binding.group, binding.binding);
@@ -321,6 +325,7 @@ impl Material {
                     geometric_normal: DVec3::Z,
                     view_dir: DVec3::Z,
                     tangent: DVec3::X.extend(1.0),
+                    color: DVec4::ONE,
                 }
             })
             .collect();

@@ -39,6 +39,7 @@ impl MeshBuffers {
             "tangent" => ("tangent", bytemuck::cast_slice(&mesh.tangents)),
             "uv0" => ("uv0", bytemuck::cast_slice(&mesh.uv0)),
             "uv1" => ("uv1", bytemuck::cast_slice(&mesh.uv1)),
+            "color" => ("color", bytemuck::cast_slice(&mesh.colors)),
             other => {
                 return Err(RenderError::Attribute { name: other.to_owned() });
             }

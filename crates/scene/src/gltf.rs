@@ -1,8 +1,8 @@
 //! glTF 2.0 files (Khronos 2021): `.glb` and `.gltf` become meshes, material documents, objects, lights and a camera.
 //!
 //! The JSON is read into the types of the `gltf` crate; containers, buffers and accessors are read here, with limits, so
-//! that a hostile file is refused and never a panic. Skins, morph targets, animations and vertex colours are passed over
-//! with a note.
+//! that a hostile file is refused and never a panic. Skins, morph targets and animations are passed over with
+//! a note.
 
 mod accessor;
 mod asset;

@@ -27,6 +27,8 @@ pub struct Mesh {
     pub uv0: Vec<[f32; 2]>,
     /// Second texture coordinates; the first ones again where a file has none.
     pub uv1: Vec<[f32; 2]>,
+    /// Linear Rec. 709 colour and alpha; white and 1 where a file has none.
+    pub colors: Vec<[f32; 4]>,
     /// Three per triangle.
     pub indices: Vec<u32>,
 }
@@ -44,6 +46,8 @@ pub struct MeshData {
     pub uv0: Option<Vec<[f32; 2]>>,
     /// Absent: `uv0`.
     pub uv1: Option<Vec<[f32; 2]>>,
+    /// Absent: white, alpha 1.
+    pub colors: Option<Vec<[f32; 4]>>,
     /// Tangents that are made follow `uv1` instead of `uv0`: for a normal map that is read there.
     pub tangents_along_uv1: bool,
     /// Three per triangle.
@@ -107,12 +111,14 @@ impl Mesh {
         let has_uv = data.uv0.is_some();
         let uv0 = data.uv0.unwrap_or_else(|| vec![[0.0; 2]; vertices]);
         let uv1 = data.uv1.unwrap_or_else(|| uv0.clone());
+        let colors = data.colors.unwrap_or_else(|| vec![[1.0; 4]; vertices]);
         let mut mesh = Mesh {
             positions: data.positions,
             normals,
             tangents: data.tangents.unwrap_or_default(),
             uv0,
             uv1,
+            colors,
             indices: data.indices,
         };
         if mesh.tangents.is_empty() {
@@ -138,6 +144,7 @@ impl Mesh {
             self.normals.push(self.normals[vertex]);
             self.uv0.push(self.uv0[vertex]);
             self.uv1.push(self.uv1[vertex]);
+            self.colors.push(self.colors[vertex]);
         }
         self.indices = split.indices;
         self.tangents = split.tangents;
@@ -208,6 +215,7 @@ fn check(data: &MeshData) -> Result<(), MeshError> {
         ("tangents", data.tangents.as_ref().map(Vec::len)),
         ("first texture coordinates", data.uv0.as_ref().map(Vec::len)),
         ("second texture coordinates", data.uv1.as_ref().map(Vec::len)),
+        ("colours", data.colors.as_ref().map(Vec::len)),
     ];
     for (what, count) in lengths {
         if let Some(count) = count.filter(|&count| count != vertices) {
@@ -231,7 +239,7 @@ fn check(data: &MeshData) -> Result<(), MeshError> {
     for (what, uvs) in [("first texture coordinates", &data.uv0), ("second texture coordinates", &data.uv1)] {
         finite(what, uvs.as_ref().and_then(|uvs| broken(uvs)))?;
     }
-    Ok(())
+    finite("colours", data.colors.as_ref().and_then(|colors| broken(colors)))
 }
 
 /// Every triangle gets three vertices of its own and its plane's normal; tangents of the file no longer fit and go.
@@ -239,6 +247,7 @@ fn with_flat_normals(data: MeshData) -> MeshData {
     let pick = |i: &u32| *i as usize;
     let positions: Vec<_> = data.indices.iter().map(|i| data.positions[pick(i)]).collect();
     let unroll = |uvs: Option<Vec<[f32; 2]>>| uvs.map(|uvs| data.indices.iter().map(|i| uvs[pick(i)]).collect());
+    let colors = data.colors.map(|colors| data.indices.iter().map(|i| colors[pick(i)]).collect());
     let mut normals = Vec::with_capacity(positions.len());
     for triangle in positions.chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|i| Vec3::from(triangle[i]));
@@ -251,6 +260,7 @@ fn with_flat_normals(data: MeshData) -> MeshData {
         tangents: None,
         uv0: unroll(data.uv0),
         uv1: unroll(data.uv1),
+        colors,
         tangents_along_uv1: data.tangents_along_uv1,
     }
 }

@@ -99,7 +99,7 @@ fn check_mesh(scene: &Scene, number: usize) -> Result<Option<Bounds>, PassesErro
     let bad = |why| Err(PassesError::BadMesh { mesh: number, why });
     let mesh = &scene.meshes[number];
     let vertices = mesh.positions.len();
-    let lengths = [mesh.normals.len(), mesh.tangents.len(), mesh.uv0.len(), mesh.uv1.len()];
+    let lengths = [mesh.normals.len(), mesh.tangents.len(), mesh.uv0.len(), mesh.uv1.len(), mesh.colors.len()];
     if lengths.iter().any(|&length| length != vertices) {
         return bad("an attribute has not one entry per vertex");
     }

@@ -297,12 +297,13 @@ fn object(scene: &Scene, object: &Object, shader: &Shader) -> Result<Value, WebE
 
 /// A mesh with the attributes that shaders read.
 fn mesh(mesh: &Mesh, wanted: &BTreeSet<&str>) -> Value {
-    let all: [(&str, &[u8]); 5] = [
+    let all: [(&str, &[u8]); 6] = [
         ("position", bytemuck::cast_slice(&mesh.positions)),
         ("normal", bytemuck::cast_slice(&mesh.normals)),
         ("tangent", bytemuck::cast_slice(&mesh.tangents)),
         ("uv0", bytemuck::cast_slice(&mesh.uv0)),
         ("uv1", bytemuck::cast_slice(&mesh.uv1)),
+        ("color", bytemuck::cast_slice(&mesh.colors)),
     ];
     let attributes: Map<String, Value> = all
         .iter()

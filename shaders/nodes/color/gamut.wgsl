@@ -44,3 +44,19 @@ fn node_color_rec709_from_acescg(color: vec3f) -> vec3f {
         dot(color, vec3f(-0.0240034, -0.1289690, 1.1529723)),
     );
 }
+
+/// Rec. 709 from Adobe RGB
+///
+/// A linear colour of Adobe RGB as the same colour in linear Rec. 709: Adobe RGB (1998), version 2005-05, white D65. Pictures in it are coded
+/// with the power 563/256: read them as linear, and raise them to that power first. Colours outside of Rec. 709 have negative channels;
+/// keep them or saturate them.
+/// @node color/rec709_from_adobe_rgb   @also gamut, color space, photograph, wide gamut
+/// - color: linear colour of Adobe RGB [0.5,0.5,0.5; 0..1; color]
+/// - return: linear Rec. 709
+fn node_color_rec709_from_adobe_rgb(color: vec3f) -> vec3f {
+    return vec3f(
+        dot(color, vec3f(1.3983557, -0.3983557, 0.0)),
+        dot(color, vec3f(0.0, 1.0000000, 0.0)),
+        dot(color, vec3f(0.0, -0.0429290, 1.0429290)),
+    );
+}

@@ -1,4 +1,4 @@
-/// The outputs of the nodes procedural/rounded_box and procedural/polygon.
+/// The outputs of the nodes procedural/circle, procedural/line, procedural/rounded_box and procedural/polygon.
 struct OutlineOutputs {
     /// 1 inside, 0 outside
     mask: f32,
@@ -76,4 +76,73 @@ fn polygon_distance(p: vec2f, sides: i32, rotation: f32) -> f32 {
     // Angles from straight down, which is +v; the sides' middles lie at whole sectors.
     let angle = select(atan2(p.x, select(p.y, 1.0, in_center)), 0.0, in_center) - radians(rotation);
     return length(p) * cos(angle - sector * floor(angle / sector + 0.5));
+}
+
+/// Circle
+///
+/// A disc, or with `width` a ring: spots, washers, targets. The mask's edge is as wide as the pixel; a disc smaller than the pixel covers its
+/// part of it.
+/// @node procedural/circle   @also disc, disk, ring, spot, dot, sdf
+/// - uv: coordinates [context uv0]
+/// - center: of the circle [0.5,0.5; 0..1]
+/// - radius: to the outer edge [0.3; 0..0.5]
+/// - width: of the ring; the radius or more is a disc [0.5; 0..0.5]
+/// - softness: width of the edge [0; 0..0.5]
+/// @vertex node_procedural_circle_vertex
+fn node_procedural_circle(uv: vec2f, center: vec2f, radius: f32, width: f32, softness: f32) -> OutlineOutputs {
+    let d = circle_distance(uv - center, radius, width);
+    let window = sqrt(squared_footprint2(uv));
+    // Half the sides of the squares of the same areas.
+    let outer = vec2f(0.88622693 * max(radius, 0.0));
+    let inner = vec2f(0.88622693 * max(radius - max(width, 0.0), 0.0));
+    let whole = outline_share(length(uv - center) - radius, softness, uv - center, outer, window);
+    let hole = outline_share(length(uv - center) - radius + max(width, 0.0), softness, uv - center, inner, window);
+    return OutlineOutputs(max(whole - select(0.0, hole, inner.x > 0.0), 0.0), d);
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_circle_vertex(uv: vec2f, center: vec2f, radius: f32, width: f32, softness: f32) -> OutlineOutputs {
+    let d = circle_distance(uv - center, radius, width);
+    return OutlineOutputs(inside_share(d, softness, 0.0), d);
+}
+
+/// Signed distance to a ring about the origin: of a disc where it is as wide as the radius.
+fn circle_distance(p: vec2f, radius: f32, width: f32) -> f32 {
+    let outside = length(p) - radius;
+    return select(outside, max(outside, -outside - max(width, 0.0)), width < radius);
+}
+
+/// Line
+///
+/// A straight line between two points with round ends: scratches, strokes, hands of a clock. The mask's edge is as wide as the pixel; a line
+/// thinner than the pixel covers its part of it.
+/// @node procedural/line   @also segment, stroke, capsule, sdf
+/// - uv: coordinates [context uv0]
+/// - a: one end [0.2,0.8; 0..1]
+/// - b: the other end [0.8,0.2; 0..1]
+/// - width: of the line; below 0 counts as 0 [0.05; 0..0.5]
+/// - softness: width of the edge [0; 0..0.5]
+/// @vertex node_procedural_line_vertex
+fn node_procedural_line(uv: vec2f, a: vec2f, b: vec2f, width: f32, softness: f32) -> OutlineOutputs {
+    let d = line_distance(uv, a, b, width);
+    let half_width = 0.5 * max(width, 0.0);
+    let along = normalize_or(vec3f(b - a, 0.0), vec3f(1.0, 0.0, 0.0)).xy;
+    let from_middle = uv - 0.5 * (a + b);
+    let p = vec2f(dot(from_middle, along), along.x * from_middle.y - along.y * from_middle.x);
+    // Half the sides of the box of the same area: the round ends are as a box's of pi/4 their length.
+    let extent = vec2f(0.5 * distance(a, b) + 0.78539816 * half_width, half_width);
+    return OutlineOutputs(outline_share(d, softness, p, extent, sqrt(squared_footprint2(uv))), d);
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_line_vertex(uv: vec2f, a: vec2f, b: vec2f, width: f32, softness: f32) -> OutlineOutputs {
+    let d = line_distance(uv, a, b, width);
+    return OutlineOutputs(inside_share(d, softness, 0.0), d);
+}
+
+/// Signed distance to a line with round ends.
+fn line_distance(p: vec2f, a: vec2f, b: vec2f, width: f32) -> f32 {
+    let way = b - a;
+    let along = clamp(dot(p - a, way) / max(dot(way, way), DIVISOR_FLOOR), 0.0, 1.0);
+    return distance(p, a + along * way) - 0.5 * max(width, 0.0);
 }

@@ -7,6 +7,7 @@ struct VertexOutput {
     @location(2) uv: vec2f,
     @location(3) uv_b: vec2f,
     @location(4) world_tangent: vec4f,
+    @location(5) color: vec4f,
     @location(6) @interpolate(flat) instance_index: u32,
 }
 struct EngineView {

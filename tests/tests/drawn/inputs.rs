@@ -161,6 +161,7 @@ pub(super) fn sphere() -> Sphere {
         }
     }
     data.positions.clone_from(&normals);
+    data.colors = Some(uv0.iter().map(|[u, v]| [*u, *v, 1.0 - u, 0.5 + 0.5 * v]).collect());
     (data.normals, data.uv0) = (Some(normals), Some(uv0));
     Sphere(Mesh::build(data).expect("a sound mesh"))
 }
@@ -181,12 +182,13 @@ impl Sphere {
             "tangent" => (bytemuck::cast_slice(&self.0.tangents), 4),
             "uv0" => (bytemuck::cast_slice(&self.0.uv0), 2),
             "uv1" => (bytemuck::cast_slice(&self.0.uv1), 2),
+            "color" => (bytemuck::cast_slice(&self.0.colors), 4),
             _ => panic!("no attribute {name}"),
         }
     }
 
     pub(super) fn as_json(&self) -> Value {
-        let attributes: serde_json::Map<String, Value> = ["position", "normal", "tangent", "uv0", "uv1"]
+        let attributes: serde_json::Map<String, Value> = ["position", "normal", "tangent", "uv0", "uv1", "color"]
             .into_iter()
             .map(|name| {
                 let (bytes, components) = self.attribute(name);

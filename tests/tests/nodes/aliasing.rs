@@ -20,6 +20,8 @@ const NO_AVERAGE: &[(&str, &[usize])] = &[
     ("procedural/brick", &[2, 3]),
     ("procedural/rounded_box", &[1]),
     ("procedural/polygon", &[1]),
+    ("procedural/circle", &[1]),
+    ("procedural/line", &[1]),
 ];
 
 /// Root of the mean squared error: with the footprint, and without.

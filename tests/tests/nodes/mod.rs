@@ -3,10 +3,14 @@
 
 mod aliasing;
 mod blend;
+mod blur;
 mod examples;
 mod finite;
+mod gabor;
 mod light;
 mod metals;
+mod noise_4d;
 mod run;
 mod surface;
 mod values;
+mod voronoi;

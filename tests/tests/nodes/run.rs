@@ -219,6 +219,7 @@ fn context(name: &str) -> &'static [f32] {
         "world_tangent" => &[0.8, 0.0, -0.6, 1.0],
         "view_dir" => &[0.0, 0.6, 0.8],
         "time" => &[1.7],
+        "vertex_color" => &[0.2, 0.5, 0.7, 0.9],
         other => panic!("no value for the context {other}"),
     }
 }

@@ -62,6 +62,33 @@ const CASES: &[Case] = &[
         &[("v", &[0.1, 0.2, 0.3, 0.4]), ("x", &[2.0]), ("y", &[5.0]), ("z", &[4.0]), ("w", &[3.0])],
         &[0.3, 1.0, 0.0, 0.4],
     ),
+    (
+        "vector/matrix_transform",
+        &[("v", &[1.0, 2.0, 3.0]), ("x", &[0.0, 1.0, 0.0]), ("y", &[-1.0, 0.0, 0.0]), ("offset", &[10.0, 0.0, 0.5])],
+        &[8.0, 1.0, 3.5],
+    ),
+    (
+        "vector/matrix4_transform",
+        &[("v", &[1.0, 2.0, 3.0, 1.0]), ("y", &[0.0, 1.0, 0.0, 0.5]), ("w", &[4.0, 5.0, 6.0, 1.0])],
+        &[5.0, 7.0, 9.0, 2.0],
+    ),
+    (
+        "vector/matrix_multiply",
+        &[("a_x", &[0.0, 1.0, 0.0]), ("a_y", &[-1.0, 0.0, 0.0]), ("b_x", &[2.0, 3.0, 0.0])],
+        &[-3.0, 2.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+    ),
+    (
+        "vector/matrix_transpose",
+        &[("x", &[1.0, 2.0, 3.0]), ("y", &[4.0, 5.0, 6.0]), ("z", &[7.0, 8.0, 9.0])],
+        &[1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0],
+    ),
+    (
+        "vector/matrix_inverse",
+        &[("x", &[1e6, 0.0, 0.0]), ("y", &[0.0, -2.0, 0.0]), ("z", &[0.0, 0.0, 1e-6])],
+        &[1e-6, 0.0, 0.0, 0.0, -0.5, 0.0, 0.0, 0.0, 1e6],
+    ),
+    ("vector/matrix_inverse", &[("y", &[2.0, 0.0, 0.0])], &[0.0; 9]),
+    ("vector/matrix_determinant", &[("x", &[0.0, 2.0, 0.0]), ("y", &[3.0, 0.0, 0.0])], &[-6.0]),
     ("vector/extract", &[("v", &[0.1, 0.2, 0.3, 0.4]), ("index", &[1.0])], &[0.2]),
     ("color/rgb_from_hsl", &[("hue", &[1.0 / 3.0]), ("lightness", &[0.25])], &[0.0, 0.5, 0.0]),
     ("color/hsl_from_rgb", &[("color", &[0.75, 0.25, 0.25])], &[0.0, 0.5, 0.5]),
@@ -72,6 +99,11 @@ const CASES: &[Case] = &[
     ("color/rec709_from_display_p3", &[("color", &[1.0, 1.0, 1.0])], &[1.0, 1.0, 1.0]),
     ("color/rec709_from_rec2020", &[("color", &[0.0, 1.0, 0.0])], &[-0.587_641, 1.132_9, -0.100_579]),
     ("color/rec709_from_acescg", &[("color", &[1.0, 1.0, 1.0])], &[1.0, 1.0, 1.0]),
+    ("color/rec709_from_adobe_rgb", &[("color", &[1.0, 1.0, 1.0])], &[1.0, 1.0, 1.0]),
+    ("color/rec709_from_adobe_rgb", &[("color", &[0.0, 1.0, 0.0])], &[-0.398_355_7, 1.0, -0.042_929_0]),
+    ("color/blend_subtract", &[("top", &[0.25, 1.0, 0.0]), ("opacity", &[0.5])], &[0.375, 0.0, 0.5]),
+    ("color/blend_divide", &[("top", &[0.5, 1.0, 0.0])], &[1.0, 0.5, 500.0]),
+    ("color/blend_linear_light", &[("top", &[0.5, 0.75, 0.0])], &[0.5, 1.0, -0.5]),
     ("color/over", &[("top_alpha", &[0.5]), ("base_alpha", &[0.0])], &[1.0, 1.0, 1.0, 0.5]),
     // A half on a half: a quarter of the pixel has both, and where only one may be seen the other one's is black.
     ("color/in", &[("base_alpha", &[0.5]), ("top", &[0.2, 0.4, 0.6]), ("top_alpha", &[0.5])], &[0.2, 0.4, 0.6, 0.25]),
@@ -141,6 +173,12 @@ const CASES: &[Case] = &[
     ("procedural/grid", &[("uv", &[0.0, 0.06])], &[1.0]),
     ("procedural/polygon", &[("uv", &[0.5, 0.8])], &[0.5, 0.0]),
     ("procedural/rounded_box", &[("uv", &[0.5, 0.5])], &[1.0, -0.2]),
+    ("procedural/circle", &[("uv", &[0.5, 0.7])], &[1.0, -0.1]),
+    ("procedural/circle", &[("uv", &[0.5, 0.5]), ("width", &[0.1])], &[0.0, 0.2]),
+    ("procedural/circle", &[("uv", &[0.5, 0.75]), ("width", &[0.1])], &[1.0, -0.05]),
+    ("procedural/line", &[("uv", &[0.5, 0.5])], &[1.0, -0.025]),
+    ("procedural/line", &[("uv", &[0.2, 1.0])], &[0.0, 0.175]),
+    ("procedural/line", &[("uv", &[0.2, 1.0]), ("b", &[0.2, 0.8])], &[0.0, 0.175]),
 ];
 
 #[test]
@@ -195,6 +233,27 @@ fn pairs_of_nodes_are_inverse() {
             assert!((there[i] - f64::from(color[i])).abs() < 1e-5, "Oklab of {color:?}: {there:?}");
             assert!((metal[i] - f64::from(color[i])).abs() < 1e-5, "index of {color:?}: {metal:?}");
         }
+    }
+}
+
+/// A matrix times its inverse is 1, both ways; the determinant of the inverse is the determinant's inverse.
+#[test]
+fn inverse_matrices_undo() {
+    let [inverse, multiply, determinant] =
+        ["inverse", "multiply", "determinant"].map(|name| Node::new(&format!("vector/matrix_{name}")));
+    for i in 0..50 {
+        let matrix: Vec<f32> = (0..9).map(|k| (((i * 9 + k) as f64 * 0.618_034).fract() * 6.0 - 3.0) as f32).collect();
+        let volume = determinant.call::<f64>(std::slice::from_ref(&matrix))[0][0];
+        if volume.abs() < 0.5 {
+            continue;
+        }
+        let back: Vec<f32> = inverse.call::<f64>(std::slice::from_ref(&matrix))[0].iter().map(|x| *x as f32).collect();
+        for row in [[matrix.clone(), back.clone()].concat(), [back.clone(), matrix].concat()] {
+            for (k, x) in multiply.call::<f64>(&[row])[0].iter().enumerate() {
+                assert!((x - f64::from(u8::from(k % 4 == 0))).abs() < 2e-5, "{k}: {x}");
+            }
+        }
+        assert!((determinant.call::<f64>(&[back])[0][0] * volume - 1.0).abs() < 1e-5);
     }
 }
 

@@ -313,6 +313,8 @@ impl<'w, 'a> Writer<'w, 'a> {
             (Entrance::Vertex, "object_position") => self.member("position"),
             (_, "uv0") => self.member("uv0"),
             (_, "uv1") => self.member("uv1"),
+            (Entrance::Vertex, "vertex_color") => self.member("color"),
+            (Entrance::Fragment, "vertex_color") => self.member("vertex_color"),
             (Entrance::Fragment, "object_position") => self.member("object_position"),
             // Nodes see the surface where it was before displacement, so that a pattern does not swim on it.
             (Entrance::Fragment, "world_position") if self.displaced => self.member("surface_position"),

@@ -14,12 +14,13 @@ use crate::reflection::{
 };
 
 /// Vertex attributes at their locations, which are the same in every shader.
-const ATTRIBUTES: [(&str, Type); 5] = [
+const ATTRIBUTES: [(&str, Type); 6] = [
     ("position", Type::Vec3),
     ("normal", Type::Vec3),
     ("tangent", Type::Vec4),
     ("uv0", Type::Vec2),
     ("uv1", Type::Vec2),
+    ("color", Type::Vec4),
 ];
 
 /// What both stages read.

@@ -11,7 +11,7 @@ use crate::names::Namer;
 use crate::passes::plan::Plan;
 
 /// Varyings in order of their locations, with their types.
-pub(crate) const VARYINGS: [(&str, &str); 7] = [
+pub(crate) const VARYINGS: [(&str, &str); 8] = [
     ("world_position", "vec3f"),
     ("surface_position", "vec3f"),
     ("object_position", "vec3f"),
@@ -19,6 +19,7 @@ pub(crate) const VARYINGS: [(&str, &str); 7] = [
     ("world_tangent", "vec4f"),
     ("uv0", "vec2f"),
     ("uv1", "vec2f"),
+    ("vertex_color", "vec4f"),
 ];
 
 /// Writes `vs_main`. `varyings` are the members that the fragment stage reads.
@@ -71,6 +72,7 @@ pub(crate) fn vertex<'a>(
             "surface_position" => "world_position".to_owned(),
             "object_position" => position.clone(),
             name @ ("uv0" | "uv1") => writer.member(name),
+            "vertex_color" => writer.member("color"),
             name => name.to_owned(),
         };
         lines.line(&format!("    out.{name} = {value};"));

@@ -153,13 +153,16 @@ fn varyings(text: &str) -> Vec<(&'static str, &'static str)> {
     VARYINGS.into_iter().filter(|(name, _)| members.contains(&format!(" {name}:"))).collect()
 }
 
-/// Where Bevy has a varying. What a mesh has not stays zero.
+/// Where Bevy has a varying. What a mesh has not stays zero; a mesh without colours is white.
 fn from_mesh(name: &str) -> &'static str {
     match name {
         "world_normal" => "    in.world_normal = mesh.world_normal;\n",
         "world_tangent" => "#ifdef VERTEX_TANGENTS\n    in.world_tangent = mesh.world_tangent;\n#endif\n",
         "uv0" => "#ifdef VERTEX_UVS_A\n    in.uv0 = mesh.uv;\n#endif\n",
         "uv1" => "#ifdef VERTEX_UVS_B\n    in.uv1 = mesh.uv_b;\n#endif\n",
+        "vertex_color" => {
+            "    in.vertex_color = vec4f(1.0);\n#ifdef VERTEX_COLORS\n    in.vertex_color = mesh.color;\n#endif\n"
+        }
         "object_position" => {
             "#ifdef VERTEX_OUTPUT_INSTANCE_INDEX\n    in.object_position = \
              (mesh_functions::get_local_from_world(mesh.instance_index) * mesh.world_position).xyz;\n#endif\n"

@@ -100,8 +100,8 @@ impl Random {
 }
 
 /// Columns of the contexts' scalars, all numbers of the precision. One point in four lies on a coarse lattice, where patterns have
-/// their corners; texture coordinates go from 0 to 1, every other time from -4 to 4; positions from -2 to 2 m; an hour of
-/// time.
+/// their corners; texture coordinates go from 0 to 1, every other time from -4 to 4; positions from -2 to 2 m; colours of
+/// vertices from 0 to 1; an hour of time.
 pub(super) fn contexts(trace: &Trace<'_>, precision: Precision, random: &mut Random) -> Vec<Vec<f64>> {
     let mut points = Vec::with_capacity(POINTS);
     for number in 0..POINTS {
@@ -128,6 +128,9 @@ pub(super) fn contexts(trace: &Trace<'_>, precision: Precision, random: &mut Ran
             let mut parts = name.split('.').skip(1);
             let context = parts.next().unwrap_or_default();
             let (part, row) = (parts.next(), parts.next());
+            if context == "vertex_color" {
+                return points.iter().map(|_| precision.rounded(random.unit())).collect();
+            }
             let component = part.map_or(0, |c| "xyzw".find(c).unwrap_or_default());
             // The object stands where it was modelled, before a viewer at the origin.
             let on_diagonal = part.and_then(|column| column.parse().ok()) == row.and_then(|row| "xyzw".find(row));

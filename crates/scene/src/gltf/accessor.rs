@@ -30,6 +30,15 @@ pub(super) fn read_vectors<const N: usize>(
     read_elements(asset, accessor, size * N, [0.0; N], read, &place)
 }
 
+/// Linear colours and alpha, 1 where the file has three numbers.
+pub(super) fn read_colors(asset: &Asset, index: Index<Accessor>, place: &str) -> Result<Vec<[f32; 4]>> {
+    if matches!(accessor(asset, index, place)?.0.type_, Checked::Valid(Type::Vec3)) {
+        let colors = read_vectors::<3>(asset, index, place)?;
+        return Ok(colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]).collect());
+    }
+    read_vectors(asset, index, place)
+}
+
 /// Indices.
 pub(super) fn read_indices(asset: &Asset, index: Index<Accessor>, place: &str) -> Result<Vec<u32>> {
     let (accessor, place) = accessor(asset, index, place)?;

@@ -2,10 +2,11 @@
 
 mod lobes;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::material::{AlphaMode as GltfAlphaMode, Material};
+use gltf::json::mesh::Semantic;
 use gltf::json::texture::{MagFilter, Texture, WrappingMode};
 use gltf::json::validation::Checked;
 use gltf::json::{self, Index};
@@ -17,15 +18,33 @@ use super::{Fault, Result, entry};
 use crate::scene::surface_document;
 
 /// The material of primitives that name none: glTF's default values.
-pub(super) fn default_material() -> Document {
-    surface_document(
+pub(super) fn default_material(is_tinted: bool) -> Document {
+    let mut document = surface_document(
         "glTF default",
         [
             ("base_color", Value::Vec3([1.0; 3])),
             ("metallic", Value::Number(1.0)),
             ("perceptual_roughness", Value::Number(1.0)),
         ],
-    )
+    );
+    if is_tinted {
+        add_node(&mut document, VERTEX_COLOR, "geometry/vertex_color", None, []);
+        add_link(&mut document, VERTEX_COLOR, "color", "surface", "base_color");
+    }
+    document
+}
+
+/// The node that reads the colours of vertices.
+const VERTEX_COLOR: &str = "vertex_color";
+
+/// The materials of which any primitive has colours at its vertices, by which glTF 2.0, section 3.7.2.1, multiplies the base colour; `None` is
+/// the default one. Primitives without are white there.
+pub(super) fn tinted_materials(asset: &Asset) -> HashSet<Option<usize>> {
+    let primitives = asset.root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    primitives
+        .filter(|primitive| primitive.attributes.contains_key(&Checked::Valid(Semantic::Colors(0))))
+        .map(|primitive| primitive.material.map(|index| index.value()))
+        .collect()
 }
 
 /// Which texture coordinates the material's normal map reads, as its tangents have to follow those: 0 or 1.
@@ -53,15 +72,18 @@ struct Builder<'a> {
     document: Document,
     /// Image nodes by what they read, so that packed maps are read once.
     images: BTreeMap<String, String>,
+    /// Whether the colours of vertices multiply the base colour.
+    is_tinted: bool,
     notes: &'a mut Vec<String>,
 }
 
-/// The document of material `index`. What has no counterpart is noted.
-pub(super) fn document(asset: &Asset, index: usize, notes: &mut Vec<String>) -> Result<Document> {
+/// The document of material `index`, which the colours of vertices multiply where it `is_tinted`. What has no counterpart is noted.
+pub(super) fn document(asset: &Asset, index: usize, is_tinted: bool, notes: &mut Vec<String>) -> Result<Document> {
     let material = &asset.root.materials[index];
     let place = format!("materials[{index}]");
     let name = material.name.clone().unwrap_or_else(|| format!("Material {index}"));
-    let mut builder = Builder { asset, place, document: surface_document(&name, []), images: BTreeMap::new(), notes };
+    let document = surface_document(&name, []);
+    let mut builder = Builder { asset, place, document, images: BTreeMap::new(), is_tinted, notes };
     builder.fill(material)?;
     Ok(builder.document)
 }
@@ -91,9 +113,12 @@ impl Builder<'_> {
         let alpha = self.number(alpha, "baseColorFactor")?;
         let map =
             self.image(pbr.base_color_texture.as_ref().map(|info| info_use(info, ColorSpace::Srgb, "base_color_map")))?;
-        self.scaled("base_color", map.as_deref().map(|m| (m, "color")), Value::Vec3(color), "base_color_factor");
+        if self.is_tinted {
+            self.node(VERTEX_COLOR, "geometry/vertex_color", None, []);
+        }
+        self.tinted("base_color", map.as_deref(), "color", Value::Vec3(color));
         if mode != AlphaMode::Opaque {
-            self.scaled("opacity", map.as_deref().map(|m| (m, "alpha")), Value::Number(alpha), "opacity_factor");
+            self.tinted("opacity", map.as_deref(), "alpha", Value::Number(alpha));
         }
 
         let metallic = self.number(pbr.metallic_factor.0, "metallicFactor")?;
@@ -188,6 +213,21 @@ impl Builder<'_> {
             self.notes.push("specular colours (KHR_materials_specular) are passed over".to_owned());
         }
         Ok(())
+    }
+
+    /// Sets an input of the surface to `factor`, times a map's output and the same one of the vertices where there are such.
+    fn tinted(&mut self, input: &str, map: Option<&str>, output: &str, factor: Value) {
+        let name = format!("{input}_factor");
+        let Some(map) = map else {
+            return self.scaled(input, self.is_tinted.then_some((VERTEX_COLOR, output)), factor, &name);
+        };
+        if !self.is_tinted {
+            return self.scaled(input, Some((map, output)), factor, &name);
+        }
+        let tint = self.node(&format!("{input}_tint"), "math/multiply", None, []);
+        self.link(map, output, &tint, "a");
+        self.link(VERTEX_COLOR, output, &tint, "b");
+        self.scaled(input, Some((&tint, "out")), factor, &name);
     }
 
     /// Sets an input of the surface to `factor`, or to a map's output times `factor`.
@@ -297,16 +337,30 @@ impl Builder<'_> {
         label: Option<String>,
         values: [(&str, Value); N],
     ) -> String {
-        let values = values.into_iter().map(|(socket, value)| (socket.to_owned(), value)).collect();
-        let node = Node { node: definition.to_owned(), label, values, unknown: Default::default() };
-        self.document.graph.nodes.insert(name.to_owned(), node);
+        add_node(&mut self.document, name, definition, label, values);
         name.to_owned()
     }
 
     fn link(&mut self, from: &str, output: &str, to: &str, input: &str) {
-        let socket = |node: &str, socket: &str| SocketRef { node: node.to_owned(), socket: socket.to_owned() };
-        self.document.graph.links.push(Link { from: socket(from, output), to: socket(to, input) });
+        add_link(&mut self.document, from, output, to, input);
     }
+}
+
+fn add_node<const N: usize>(
+    document: &mut Document,
+    name: &str,
+    definition: &str,
+    label: Option<String>,
+    values: [(&str, Value); N],
+) {
+    let values = values.into_iter().map(|(socket, value)| (socket.to_owned(), value)).collect();
+    let node = Node { node: definition.to_owned(), label, values, unknown: Default::default() };
+    document.graph.nodes.insert(name.to_owned(), node);
+}
+
+fn add_link(document: &mut Document, from: &str, output: &str, to: &str, input: &str) {
+    let socket = |node: &str, socket: &str| SocketRef { node: node.to_owned(), socket: socket.to_owned() };
+    document.graph.links.push(Link { from: socket(from, output), to: socket(to, input) });
 }
 
 fn info_use<'a>(info: &json::texture::Info, color_space: ColorSpace, name: &'a str) -> Use<'a> {

@@ -11,9 +11,9 @@ use gltf::json::scene::Node;
 use gltf::json::validation::Checked;
 use rayon::prelude::*;
 
-use super::accessor::{count, read_indices, read_vectors};
+use super::accessor::{count, read_colors, read_indices, read_vectors};
 use super::asset::Asset;
-use super::material::{default_material, document, normal_uv_set};
+use super::material::{default_material, document, normal_uv_set, tinted_materials};
 use super::{Fault, GltfError, Result, entry};
 use crate::camera::Camera;
 use crate::light::Light;
@@ -55,14 +55,15 @@ fn build(asset: &Asset) -> Result<Model> {
     let instances = instances(asset)?;
     let directory = asset.path().parent().unwrap_or(Path::new("")).to_owned();
     let mut materials = Vec::new();
+    let tinted = tinted_materials(asset);
     for index in 0..asset.root.materials.len() {
-        let document = document(asset, index, &mut notes)?;
+        let document = document(asset, index, tinted.contains(&Some(index)), &mut notes)?;
         materials.push(SceneMaterial { document, directory: directory.clone() });
     }
 
     let mut model =
         Model { meshes: Vec::new(), materials, objects: Vec::new(), lights: Vec::new(), camera: None, notes };
-    let drawn = model.add_objects(asset, &instances, directory)?;
+    let drawn = model.add_objects(asset, &instances, directory, tinted.contains(&None))?;
     let meshes: Result<Vec<Mesh>> = drawn.par_iter().map(|d| read_mesh(asset, d)).collect();
     model.meshes = meshes?;
     for &(node, world_from_node) in &instances {
@@ -90,6 +91,7 @@ impl Model {
         asset: &'a Asset,
         instances: &[(usize, Mat4)],
         directory: std::path::PathBuf,
+        is_default_tinted: bool,
     ) -> Result<Vec<Drawn<'a>>> {
         let root = &asset.root;
         let mut drawn: Vec<Drawn> = Vec::new();
@@ -118,8 +120,10 @@ impl Model {
                         material.value()
                     }
                     None => *default.get_or_insert_with(|| {
-                        self.materials
-                            .push(SceneMaterial { document: default_material(), directory: directory.clone() });
+                        self.materials.push(SceneMaterial {
+                            document: default_material(is_default_tinted),
+                            directory: directory.clone(),
+                        });
                         self.materials.len() - 1
                     }),
                 };
@@ -185,7 +189,7 @@ impl Model {
             primitives().any(|p| p.attributes.keys().any(|k| matches!(k, Checked::Valid(s) if wanted(s))))
         };
         let cases = [
-            (has(|s| matches!(s, Semantic::Colors(_))), "vertex colours"),
+            (has(|s| matches!(s, Semantic::Colors(n) if *n > 0)), "vertex colours beyond the first"),
             (!root.skins.is_empty() || has(|s| matches!(s, Semantic::Joints(_))), "skins"),
             (primitives().any(|p| p.targets.is_some()), "morph targets"),
             (!root.animations.is_empty(), "animations"),
@@ -260,6 +264,7 @@ fn read_mesh(asset: &Asset, drawn: &Drawn<'_>) -> Result<Mesh> {
     let tangents = attribute(Semantic::Tangents).map(|a| read_vectors(asset, a, place)).transpose()?;
     let uv0 = attribute(Semantic::TexCoords(0)).map(|a| read_vectors(asset, a, place)).transpose()?;
     let uv1 = attribute(Semantic::TexCoords(1)).map(|a| read_vectors(asset, a, place)).transpose()?;
+    let colors = attribute(Semantic::Colors(0)).map(|a| read_colors(asset, a, place)).transpose()?;
     let order = match primitive.indices {
         Some(indices) => read_indices(asset, indices, place)?,
         None => (0..positions.len() as u32).collect(),
@@ -271,8 +276,8 @@ fn read_mesh(asset: &Asset, drawn: &Drawn<'_>) -> Result<Mesh> {
     };
     let material = primitive.material.and_then(|m| asset.root.materials.get(m.value()));
     let tangents_along_uv1 = material.is_some_and(|m| normal_uv_set(m) == 1);
-    Mesh::build(MeshData { positions, normals, tangents, uv0, uv1, tangents_along_uv1, indices })
-        .map_err(|e| Fault::new(place, e.to_string()))
+    let data = MeshData { positions, normals, tangents, uv0, uv1, colors, tangents_along_uv1, indices };
+    Mesh::build(data).map_err(|e| Fault::new(place, e.to_string()))
 }
 
 /// glTF 2.0, section 3.7.2.1: every vertex makes a triangle with the two before it, the winding alternates.

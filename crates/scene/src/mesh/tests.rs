@@ -16,7 +16,7 @@ fn shapes_are_sound_and_face_outwards() {
         let (name, mesh) = (part.name, &part.mesh);
         let vertices = mesh.positions.len();
         assert!(vertices > 1000, "{shape:?} {name} is fine enough to be displaced");
-        for length in [mesh.normals.len(), mesh.tangents.len(), mesh.uv0.len(), mesh.uv1.len()] {
+        for length in [mesh.normals.len(), mesh.tangents.len(), mesh.uv0.len(), mesh.uv1.len(), mesh.colors.len()] {
             assert_eq!(length, vertices, "{shape:?} {name}");
         }
         for triangle in triangles(mesh) {
@@ -152,6 +152,10 @@ fn missing_attributes_are_made() {
     assert_eq!(mesh.positions.len(), 6, "flat normals want vertices of their own");
     assert!(mesh.normals.iter().all(|n| *n == [0.0, 0.0, 1.0]));
     assert!(mesh.tangents.iter().all(|t| t[3] == 1.0 && t[2].abs() < 1e-6));
+    assert_eq!(mesh.colors, [[1.0; 4]; 6]);
+    let colors = [0.1, 0.2, 0.3, 0.4].map(|x| [x, 0.0, 1.0, 0.5]);
+    let mesh = Mesh::build(MeshData { colors: Some(colors.to_vec()), ..quad.clone() }).unwrap();
+    assert_eq!(mesh.colors, [0, 1, 2, 0, 2, 3].map(|i: usize| colors[i]), "they follow their vertices");
 
     let with_uv = MeshData {
         normals: Some(vec![[0.0, 0.0, 2.0]; 4]),
@@ -168,6 +172,7 @@ fn missing_attributes_are_made() {
     let mirrored = MeshData {
         positions: vec![[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
         normals: Some(vec![[0.0, 0.0, 1.0]; 4]),
+        colors: Some(colors.to_vec()),
         uv0: Some(vec![[1.0, 1.0], [0.0, 1.0], [0.0, 0.0], [1.0, 1.0]]),
         indices: vec![0, 1, 2, 1, 3, 2],
         ..MeshData::default()
@@ -176,6 +181,8 @@ fn missing_attributes_are_made() {
     assert_eq!(mesh.positions.len(), 6);
     let w: Vec<_> = mesh.indices.iter().map(|&i| mesh.tangents[i as usize][3]).collect();
     assert_eq!(w, [-1.0, -1.0, -1.0, 1.0, 1.0, 1.0]);
+    let shown: Vec<_> = mesh.indices.iter().map(|&i| mesh.colors[i as usize]).collect();
+    assert_eq!(shown, [0, 1, 2, 1, 3, 2].map(|i: usize| colors[i]));
 
     // A normal map on the second coordinates has its tangents along those.
     let turned = MeshData {
@@ -195,6 +202,8 @@ fn broken_meshes_say_what_is_wrong() {
         (MeshData { indices: vec![0, 1, 3], ..good.clone() }, "index 2 is 3"),
         (MeshData { normals: Some(vec![[0.0; 3]; 2]), ..good.clone() }, "3 positions but 2 normals"),
         (MeshData { uv1: Some(vec![]), ..good.clone() }, "0 second texture coordinates"),
+        (MeshData { colors: Some(vec![[1.0; 4]; 2]), ..good.clone() }, "3 positions but 2 colours"),
+        (MeshData { colors: Some(vec![[f32::NAN; 4]; 3]), ..good.clone() }, "vertex 0 has colours"),
         (MeshData { positions: vec![[0.0; 3], [f32::NAN; 3], [0.0; 3]], ..good.clone() }, "vertex 1 has positions"),
         (MeshData { uv0: Some(vec![[f32::INFINITY; 2]; 3]), ..good.clone() }, "first texture coordinates"),
     ];

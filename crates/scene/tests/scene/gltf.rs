@@ -4,7 +4,7 @@ use glam::{Mat4, Vec3};
 use halfvector_scene::Light;
 use serde_json::json;
 
-use crate::support::{Builder, add};
+use crate::support::{Builder, add, errors};
 
 #[test]
 fn a_triangle_comes_through() {
@@ -26,6 +26,43 @@ fn tangents_of_the_file_are_kept() {
     builder.attribute("TANGENT", &[[0.0, 1.0, 0.0, -1.0]; 3]);
     let mesh = &builder.load().unwrap().meshes[0];
     assert!(mesh.tangents.iter().all(|t| *t == [0.0, 1.0, 0.0, -1.0]));
+}
+
+/// glTF 2.0, section 3.7.2.1: three or four numbers, floats or normalised, multiply the base colour.
+#[test]
+fn colors_of_vertices_are_read_and_multiply_the_base_color() {
+    let mut builder = Builder::triangle();
+    builder.attribute("COLOR_0", &[[0.25, 0.5, 0.75]; 3]);
+    let model = builder.load().unwrap();
+    assert_eq!(model.meshes[0].colors, [[0.25, 0.5, 0.75, 1.0]; 3]);
+    let links = |model: &halfvector_scene::gltf::Model| -> Vec<String> {
+        let links = &model.materials[0].document.graph.links;
+        let text = |s: &halfvector_graph::document::SocketRef| format!("{}.{}", s.node, s.socket);
+        links.iter().map(|link| format!("{} -> {}", text(&link.from), text(&link.to))).collect()
+    };
+    assert_eq!(links(&model), ["vertex_color.color -> surface.base_color"]);
+    assert!(model.notes.is_empty() && errors(&model.materials[0].document).is_empty());
+
+    let bytes: Vec<u8> = [[255_u8, 0, 51, 102]; 3].concat();
+    let view = builder.view(&bytes);
+    let accessor = json!({"bufferView": view, "componentType": 5121, "normalized": true, "type": "VEC4", "count": 3});
+    builder.primitive()["attributes"]["COLOR_0"] = builder.accessor(accessor).into();
+    let factor = json!({"baseColorFactor": [0.5, 1.0, 1.0, 1.0]});
+    add(&mut builder, "materials", json!({"alphaMode": "BLEND", "pbrMetallicRoughness": factor}));
+    builder.primitive()["material"] = 0.into();
+    let model = builder.load().unwrap();
+    assert_eq!(model.meshes[0].colors, [[1.0, 0.0, 0.2, 0.4]; 3]);
+    let expected = [
+        "vertex_color.color -> base_color_factor.a",
+        "base_color_factor.out -> surface.base_color",
+        "vertex_color.alpha -> surface.opacity",
+    ];
+    assert_eq!(links(&model), expected);
+    assert!(errors(&model.materials[0].document).is_empty());
+
+    // Two numbers are no colour.
+    builder.attribute("COLOR_0", &[[1.0, 1.0]; 3]);
+    assert!(builder.load().is_err());
 }
 
 #[test]
@@ -201,10 +238,13 @@ fn the_models_camera_is_taken() {
 #[test]
 fn what_is_passed_over_is_noted() {
     let mut builder = Builder::triangle();
-    builder.attribute("COLOR_0", &[[1.0, 0.0, 0.0]; 3]);
+    builder.attribute("COLOR_1", &[[1.0, 0.0, 0.0]; 3]);
     builder.attribute("_TEMPERATURE", &[[1.0]; 3]);
     builder.json["extensionsUsed"] = json!(["KHR_materials_dispersion"]);
     add(&mut builder, "skins", json!({"joints": [0]}));
     let notes = builder.load().unwrap().notes.join("; ");
-    assert!(notes.contains("vertex colours, skins") && notes.contains("KHR_materials_dispersion"), "{notes}");
+    assert!(
+        notes.contains("vertex colours beyond the first, skins") && notes.contains("KHR_materials_dispersion"),
+        "{notes}"
+    );
 }
