@@ -10,6 +10,9 @@ mod budget;
 mod compare;
 #[path = "cli/reference.rs"]
 mod reference;
+#[cfg(unix)]
+#[path = "cli/report.rs"]
+mod report;
 #[path = "cli/window.rs"]
 mod window;
 

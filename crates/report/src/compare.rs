@@ -176,9 +176,11 @@ fn less_accurate(old: &Row, new: &Row) -> Vec<Change> {
     let mut changes = Vec::new();
     let kinds: [Figure; 2] = [("rms error", |row| row.error_rms), ("largest error", |row| row.error_max)];
     for (name, error) in kinds {
-        // An infinite error is null in the file: a row that had a finite one has lost it.
-        let now = error(new).unwrap_or(f64::INFINITY);
-        if let Some(before) = error(old)
+        // An infinite error is null in the file: a row that had a finite one has lost it. But where noise hides the error it is not
+        // known to have grown, and what was hidden has grown beyond what it was at most.
+        let now = error(new).unwrap_or(if new.error_bound.is_some() { 0.0 } else { f64::INFINITY });
+        let known = error(old).or(if name == "rms error" { old.error_bound } else { None });
+        if let Some(before) = known
             && now > before * (1.0 + ERROR_NOISE) + ERROR_FLOOR
         {
             changes.push(Change::of("less accurate", old, name, format!("{name} {now:.3e}, was {before:.3e}")));
@@ -273,6 +275,18 @@ mod tests {
         (new.rows[1].cost_ns, new.rows[1].cost_spread) = (Some(9.0), None);
         let found: Vec<_> = changes(&old, &new).iter().map(|c| c.what).collect();
         assert_eq!(found, ["longer"]);
+    }
+
+    /// An error that noise hides has not grown, and one that it hid has grown when it is more than it can have been.
+    #[test]
+    fn errors_below_noise_are_weighed_by_their_bounds() {
+        let old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.3]);
+        let mut new = old.clone();
+        (new.rows[1].error_rms, new.rows[1].error_bound) = (None, Some(0.4));
+        assert_eq!(changes(&old, &new), []);
+        assert_eq!(changes(&new, &old), []);
+        new.rows[1].error_bound = Some(0.15);
+        assert_eq!(changes(&new, &old).iter().map(|c| c.what).collect::<Vec<_>>(), ["less accurate"]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Rows that can be compared: the methods of one term on the same inputs, with one kind of cost. Which of them no other
 //! beats, and what to choose.
 
-use crate::Row;
+use crate::{Row, terms};
 
 /// What the methods of a comparison cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,12 +12,14 @@ pub enum Cost {
     Call,
     /// Memory that is read.
     Bytes,
+    /// Time of a pixel of a whole shader on the device.
+    Device,
     /// Instructions of a whole shader.
     Instructions,
 }
 
 impl Cost {
-    const ALL: [Cost; 4] = [Cost::Batch, Cost::Call, Cost::Bytes, Cost::Instructions];
+    const ALL: [Cost; 5] = [Cost::Batch, Cost::Call, Cost::Bytes, Cost::Device, Cost::Instructions];
 
     /// Of a row, where it has this kind.
     pub fn of(self, row: &Row) -> Option<f64> {
@@ -25,6 +27,7 @@ impl Cost {
             Cost::Batch => row.cost_batch_ns,
             Cost::Call => row.cost_ns,
             Cost::Bytes => row.bytes.map(|bytes| bytes as f64),
+            Cost::Device => row.gpu_ns,
             Cost::Instructions => row.instructions.map(|count| count as f64),
         }
     }
@@ -34,6 +37,7 @@ impl Cost {
         match self {
             Cost::Batch => row.cost_batch_spread,
             Cost::Call => row.cost_spread,
+            Cost::Device => row.gpu_spread,
             Cost::Bytes | Cost::Instructions => Some(0.0),
         }
     }
@@ -44,13 +48,14 @@ impl Cost {
             Cost::Batch => "time of one element of a batch [ns]",
             Cost::Call => "time of one call [ns]",
             Cost::Bytes => "memory read [bytes]",
+            Cost::Device => "time of a pixel of a whole fragment stage on the device [ns]",
             Cost::Instructions => "instructions of a whole fragment stage",
         }
     }
 
     /// Whether it is a time: times are as sure as their spread says, what is counted is exact.
     pub fn is_time(self) -> bool {
-        matches!(self, Cost::Batch | Cost::Call)
+        matches!(self, Cost::Batch | Cost::Call | Cost::Device)
     }
 
     /// How it was measured.
@@ -63,6 +68,10 @@ impl Cost {
                 "Time: one call after the other on one core; the median of interleaved runs, of five sittings the fastest."
             }
             Cost::Bytes => "Memory: what the method reads, counted and not timed.",
+            Cost::Device => {
+                "Time: a pixel of a whole fragment stage with the method, by the device's timestamps; the shortest of turns \
+                 that lie apart."
+            }
             Cost::Instructions => {
                 "Instructions: SPIR-V of a whole fragment stage with the method, counted and not timed."
             }
@@ -171,6 +180,9 @@ pub struct Comparison<'a> {
     pub entries: Vec<Entry<'a>>,
 }
 
+/// Terms of which nothing is chosen: drawers of whole pictures, and what the split sum loses beside a sum over all light.
+const NO_CHOICE: [&str; 2] = ["picture", "split_sum"];
+
 /// Times that differ by less are alike, where the rows do not say how far they spread.
 const ALIKE: f64 = 0.02;
 
@@ -236,8 +248,7 @@ fn figure(cost: Cost, row: &Row) -> Option<(f64, f64, Option<f64>)> {
 pub fn comparisons(rows: &[Row]) -> Vec<Comparison<'_>> {
     let mut merged: Vec<(Cost, Vec<Vec<usize>>)> = Vec::new();
     for (cost, group) in groups(rows) {
-        // Pictures of one drawer are not a choice among methods.
-        if rows[group[0]].is_rounding() || rows[group[0]].term == "picture" || group.len() < 2 {
+        if rows[group[0]].is_rounding() || NO_CHOICE.contains(&rows[group[0]].term.as_str()) || group.len() < 2 {
             continue;
         }
         let alike = |other: &[usize]| {
@@ -282,27 +293,101 @@ fn comparison<'a>(rows: &'a [Row], cost: Cost, groups: &[Vec<usize>]) -> Compari
     }
 }
 
+/// What to take within a budget.
+#[derive(Clone, Copy, Debug)]
+pub struct Choice<'c, 'a> {
+    /// The method.
+    pub entry: &'c Entry<'a>,
+    /// What was weighed against its error.
+    pub weighed: Cost,
+    /// Whether it keeps the budget's limit, or is only the best that there is.
+    pub keeps: bool,
+    /// Whether `--method` has no name for it, nor for any other method of the comparison: it is chosen in the library.
+    pub library_only: bool,
+    /// What would be taken if the library's other methods could be named, too, where that is another one.
+    pub of_library: Option<&'c Entry<'a>>,
+}
+
 impl<'a> Comparison<'a> {
     /// The method to take within a budget: the cheapest whose rms error is within the budget's limit, or, where none is,
-    /// that for film, which is the cheapest of those that are within 5 % of the least error or of rounding.
+    /// that for film, which is the cheapest of those that are within 5 % of the least error or of rounding. Costs are those of
+    /// the plot.
     pub fn choice(&self, budget: Budget) -> &Entry<'a> {
-        let front = || self.entries.iter().filter(|entry| entry.front);
-        let best = front().next().unwrap_or(&self.entries[0]);
-        let limit = match budget {
-            Budget::Film => (1.05 * best.rms).max(self.unit.limit(budget)),
-            _ => self.unit.limit(budget),
+        self.pick(budget, self.cost, |_| true).unwrap_or(&self.entries[0])
+    }
+
+    /// What to recommend: the same among the methods that `--method` knows, by the device's time where all of these have
+    /// one, else by the plot's costs. Of methods whose costs are alike it is the more accurate.
+    pub fn recommended(&self, budget: Budget) -> Choice<'_, 'a> {
+        let known = |entry: &Entry<'_>| terms::is_known(self.term, &entry.row.method);
+        let best = self.pick(budget, self.weighed(|_| true), |_| true).unwrap_or(&self.entries[0]);
+        let (named, weighed) = (self.pick(budget, self.weighed(known), known), self.weighed(known));
+        let entry = named.unwrap_or(best);
+        Choice {
+            entry,
+            weighed: if named.is_some() { weighed } else { self.weighed(|_| true) },
+            keeps: self.keeps(entry, budget),
+            library_only: named.is_none(),
+            of_library: (named.is_some() && !known(best)).then_some(best),
+        }
+    }
+
+    /// The cost that is weighed among some of the methods.
+    fn weighed(&self, of: impl Fn(&Entry<'a>) -> bool) -> Cost {
+        let timed = self.entries.iter().filter(|entry| of(entry)).all(|entry| entry.row.gpu_ns.is_some());
+        if timed { Cost::Device } else { self.cost }
+    }
+
+    /// Of some of the methods that which a budget takes; none of none.
+    fn pick(&self, budget: Budget, cost: Cost, of: impl Fn(&Entry<'a>) -> bool) -> Option<&Entry<'a>> {
+        let spent = |entry: &Entry<'a>| if cost == self.cost { Some(entry.cost) } else { cost.of(entry.row) };
+        let taken = self.entries.iter().filter(|entry| of(entry));
+        let taken: Vec<(&Entry<'a>, f64)> = taken.filter_map(|entry| Some((entry, spent(entry)?))).collect();
+        let figures: Vec<_> = taken.iter().map(|&(entry, spent)| (entry.rms, spent, cost.spread(entry.row))).collect();
+        let front: Vec<(&Entry<'a>, f64)> =
+            taken.into_iter().zip(front(&figures)).filter(|(_, front)| *front).map(|(entry, _)| entry).collect();
+        // Entries stand in the order of their errors.
+        let (best, _) = *front.first()?;
+        let cheapest = |limit: f64| {
+            let within = front.iter().filter(|(entry, _)| entry.rms <= limit);
+            within.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(entry, _)| *entry)
         };
-        let within = front().filter(|entry| entry.rms <= limit);
-        match within.min_by(|a, b| a.cost.total_cmp(&b.cost)) {
-            Some(entry) => entry,
-            None if budget == Budget::Film => best,
-            None => self.choice(Budget::Film),
+        let film = || cheapest((1.05 * best.rms).max(self.unit.limit(Budget::Film))).unwrap_or(best);
+        match budget {
+            Budget::Film => Some(film()),
+            _ => Some(cheapest(self.unit.limit(budget)).unwrap_or_else(film)),
         }
     }
 
     /// Whether the method keeps the budget's limit, or is only the best that there is.
     pub fn keeps(&self, entry: &Entry<'_>, budget: Budget) -> bool {
         budget == Budget::Film || entry.rms <= self.unit.limit(budget)
+    }
+
+    /// Title of the axis or column of the costs, with the unit.
+    pub fn cost_title(&self) -> &'static str {
+        if self.is_of_bakes() {
+            "time of a bake on all cores for each texel of its levels [ns]"
+        } else {
+            self.cost.title()
+        }
+    }
+
+    /// How the costs were measured.
+    pub fn how(&self) -> String {
+        if self.is_of_bakes() {
+            return "Time: a whole bake on all cores, irradiance and harmonics included, shared out among the texels of its levels."
+                .to_owned();
+        }
+        let device = self.entries.iter().find_map(|entry| entry.row.gpu.as_deref());
+        match (self.cost, device) {
+            (Cost::Device, Some(name)) => format!("{} The device: {name}.", self.cost.measured()),
+            _ => self.cost.measured().to_owned(),
+        }
+    }
+
+    fn is_of_bakes(&self) -> bool {
+        self.term == "prefilter" && self.cost == Cost::Batch
     }
 }
 
@@ -360,6 +445,44 @@ mod tests {
         let chosen = |budget| both.choice(budget).row.method.as_str();
         assert_eq!(Budget::ALL.map(chosen), ["a", "a", "a"]);
         assert!(both.keeps(&both.entries[0], Budget::Desktop) && !both.keeps(&both.entries[1], Budget::Mobile));
+    }
+
+    /// What is named is recommended, what the library has beside it is told apart.
+    #[test]
+    fn only_methods_that_can_be_named_are_recommended() {
+        let of =
+            |method: &str, error, cost| Row { term: "diffuse".into(), ..row(method, "one; relative", error, cost) };
+        let rows = vec![of("lambert", 0.5, 1.0), of("eon", 0.005, 3.0), of("eon_exact", 0.0, 9.0)];
+        let found = comparisons(&rows);
+        let film = found[0].recommended(Budget::Film);
+        assert_eq!((film.entry.row.method.as_str(), film.library_only), ("eon", false));
+        assert_eq!(film.of_library.map(|entry| entry.row.method.as_str()), Some("eon_exact"));
+        let mobile = found[0].recommended(Budget::Mobile);
+        assert!(mobile.entry.row.method == "eon" && mobile.of_library.is_none() && mobile.keeps);
+        let rows: Vec<Row> = rows.into_iter().map(|row| Row { term: "normal_blend".into(), ..row }).collect();
+        assert!(comparisons(&rows)[0].recommended(Budget::Film).library_only);
+    }
+
+    /// Where all have a time on the device it decides, and of what takes as long the more accurate one is taken.
+    #[test]
+    fn the_time_of_the_device_is_weighed_where_there_is_one() {
+        let of = |method: &str, error, instructions, gpu_ns| Row {
+            instructions: Some(instructions),
+            gpu_ns,
+            gpu_spread: gpu_ns.map(|_| 0.05),
+            cost_ns: None,
+            term: "anisotropy".into(),
+            ..row(method, "one; relative", error, 0.0)
+        };
+        let found = |strips: Option<f64>, bent: Option<f64>| {
+            let rows = vec![of("strips", 0.05, 500, strips), of("bent", 0.08, 600, bent)];
+            let found = comparisons(&rows);
+            let choice = found[0].recommended(Budget::Mobile);
+            (found[0].cost, choice.weighed, choice.entry.row.method.clone())
+        };
+        assert_eq!(found(Some(617.0), Some(216.0)), (Cost::Device, Cost::Device, "bent".to_owned()));
+        assert_eq!(found(Some(222.0), Some(216.0)), (Cost::Device, Cost::Device, "strips".to_owned()));
+        assert_eq!(found(None, None), (Cost::Instructions, Cost::Instructions, "strips".to_owned()));
     }
 
     /// Where no method is good enough, no budget pays for the last hundredth of an error.

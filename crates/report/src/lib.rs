@@ -12,6 +12,7 @@
 pub mod compare;
 pub mod comparison;
 pub mod error;
+mod noise;
 pub mod page;
 pub mod part;
 pub mod placed;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::comparison::{Budget, Comparison, Cost, Unit, comparisons};
+use crate::comparison::{Budget, Choice, Comparison, Cost, Entry, Unit, comparisons};
 use crate::part::shaders;
 use crate::plot::{dark_rules, escaped, scatter};
 use crate::{PARTS, Report, Row, terms, words};
@@ -16,10 +16,26 @@ const SORT: &str = include_str!("page/sort.js");
 pub fn html(report: &Report) -> String {
     let comparisons = comparisons(&report.rows);
     let mut page = String::new();
-    head(report, &comparisons, &mut page);
+    let chapters: Vec<(&str, String)> = terms_of(report)
+        .into_iter()
+        .map(|term| (term, chapter(term, report, &comparisons)))
+        .filter(|(_, text)| !text.is_empty())
+        .collect();
+    let names: Vec<&str> = chapters.iter().map(|(term, _)| *term).collect();
+    head(report, &comparisons, &names, &mut page);
     choices(&comparisons, &mut page);
-    for term in terms_of(report) {
-        chapter(term, report, &comparisons, &mut page);
+    for (term, text) in chapters {
+        let _ = writeln!(
+            page,
+            "<h2 id=\"{0}\">{1} <code>{0}</code></h2>",
+            escaped(term),
+            escaped(&capital(terms::help(term)))
+        );
+        let explained = terms::explained(term);
+        if !explained.is_empty() {
+            let _ = writeln!(page, "<p class=\"about\">{}</p>", code(explained));
+        }
+        page.push_str(&text);
     }
     rounding(report, &mut page);
     foot(report, &mut page);
@@ -37,7 +53,7 @@ fn terms_of(report: &Report) -> Vec<&str> {
     terms
 }
 
-fn head(report: &Report, comparisons: &[Comparison<'_>], page: &mut String) {
+fn head(report: &Report, comparisons: &[Comparison<'_>], chapters: &[&str], page: &mut String) {
     let effort = report.effort.words();
     let dark = dark_rules();
     let _ = write!(
@@ -63,12 +79,13 @@ fn head(report: &Report, comparisons: &[Comparison<'_>], page: &mut String) {
     if !comparisons.is_empty() {
         page.push_str("<a href=\"#choose\">What to choose</a>");
     }
-    for term in terms_of(report) {
+    for term in chapters {
         let _ = write!(page, "<a href=\"#{0}\">{0}</a>", escaped(term));
     }
-    page.push_str(
-        "<a href=\"#rounding\">rounding</a><a href=\"#how\">how it is measured</a></nav>\n</header>\n<main>\n",
-    );
+    if report.rows.iter().any(Row::is_rounding) {
+        page.push_str("<a href=\"#rounding\">rounding</a>");
+    }
+    page.push_str("<a href=\"#how\">how it is measured</a></nav>\n</header>\n<main>\n");
 }
 
 /// How many different methods there are.
@@ -87,10 +104,14 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
         page,
         "<h2 id=\"choose\">What to choose</h2>\n<p>Made from the figures below by one rule. <b>Mobile</b> takes the cheapest \
          method whose rms error is at most {}, <b>desktop</b> the cheapest within {}, <b>film</b> the cheapest of \
-         those within 5 % of the least error. Where no method keeps a limit, the one for film stands in brackets.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
+         those within 5 % of the least error. Where no method keeps a limit, the one for film stands in brackets. What is weighed is the time \
+         on the device{} where every method has one, else the time of one element of a batch or of one call, else memory or \
+         instructions; the figure says which. Of methods that take as long, within their spread, it is the more accurate. Only what \
+         <code>--method</code> knows is recommended; where the library alone has something better it is named below.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
          <th>mobile</th><th>desktop</th><th>film</th></tr></thead><tbody>\n",
         limit(Budget::Mobile),
-        limit(Budget::Desktop)
+        limit(Budget::Desktop),
+        device(comparisons).map_or(String::new(), |name| format!(" ({})", escaped(name))),
     );
     for comparison in comparisons {
         let truth = words::against(comparison.domains[0]).split_once("against ").map_or("", |(_, truth)| truth);
@@ -102,13 +123,20 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
             escaped(&inputs)
         );
         for budget in Budget::ALL {
-            let entry = comparison.choice(budget);
-            let figures =
-                format!("{}, {}", words::error(entry.rms, comparison.unit), words::cost(entry.cost, comparison.cost));
-            let brackets = if comparison.keeps(entry, budget) { figures } else { format!("({figures})") };
+            let Choice { entry, weighed, keeps, library_only, of_library } = comparison.recommended(budget);
+            let figures = figures(comparison, entry, weighed);
+            let brackets = if keeps { figures } else { format!("({figures})") };
+            let tag = if library_only { "<span class=\"tag plain\">library only</span>" } else { "" };
+            let of_library = of_library.map_or(String::new(), |entry| {
+                format!(
+                    "<br><span class=\"small muted\">library: {}, {}</span>",
+                    escaped(&entry.row.method),
+                    escaped(&words::error(entry.rms, comparison.unit))
+                )
+            });
             let _ = write!(
                 page,
-                "<td><b>{}</b><br><span class=\"muted\">{}</span></td>",
+                "<td><b>{}</b>{tag}<br><span class=\"muted\">{}</span>{of_library}</td>",
                 escaped(&entry.row.method),
                 escaped(&brackets)
             );
@@ -118,11 +146,25 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
     page.push_str("</tbody></table></div></section>\n");
 }
 
-fn chapter(term: &str, report: &Report, comparisons: &[Comparison<'_>], page: &mut String) {
-    let help = terms::help(term);
-    let _ = writeln!(page, "<h2 id=\"{0}\">{1} <code>{0}</code></h2>", escaped(term), escaped(&capital(help)));
+/// The device that shaders were timed on.
+fn device<'a>(comparisons: &[Comparison<'a>]) -> Option<&'a str> {
+    comparisons.iter().flat_map(|comparison| &comparison.entries).find_map(|entry| entry.row.gpu.as_deref())
+}
+
+/// Error and cost of a choice.
+fn figures(comparison: &Comparison<'_>, entry: &Entry<'_>, weighed: Cost) -> String {
+    let error = words::error(entry.rms, comparison.unit);
+    match (weighed, entry.row.gpu_ns) {
+        (Cost::Device, Some(time)) => format!("{error}, {} on the device", words::cost(time, Cost::Device)),
+        _ => format!("{error}, {}", words::cost(entry.cost, comparison.cost)),
+    }
+}
+
+/// What there is to show of a term, below its heading; empty when it is told elsewhere.
+fn chapter(term: &str, report: &Report, comparisons: &[Comparison<'_>]) -> String {
+    let mut page = String::new();
     for comparison in comparisons.iter().filter(|comparison| comparison.term == term) {
-        figure(comparison, report, page);
+        figure(comparison, report, &mut page);
     }
     let drawn = |row: &Row| {
         comparisons.iter().any(|comparison| {
@@ -136,9 +178,17 @@ fn chapter(term: &str, report: &Report, comparisons: &[Comparison<'_>], page: &m
     // What the shader of a method costs stands in the tables of its errors already.
     let told = |row: &&Row| report.rows.iter().any(|other| shaders::tells_of(other, row));
     let others: Vec<&Row> = others.into_iter().filter(|row| !told(row)).collect();
-    if !others.is_empty() {
-        tables::section(&others, page);
+    // What a shader alone costs has no error, and what has one makes a table of its own.
+    let (wrong, counted): (Vec<&Row>, Vec<&Row>) = others.into_iter().partition(|row| !is_count(row));
+    for rows in [wrong, counted].iter().filter(|rows| !rows.is_empty()) {
+        tables::section(rows, &mut page);
     }
+    page
+}
+
+/// Whether a row only says what a shader costs.
+fn is_count(row: &Row) -> bool {
+    row.instructions.is_some() && row.error_rms.is_none() && row.error_max.is_none() && row.cost_ns.is_none()
 }
 
 /// Text with names in backticks, as HTML.
@@ -188,7 +238,7 @@ fn figure(comparison: &Comparison<'_>, report: &Report, page: &mut String) {
         scatter(comparison),
         escaped(&capital(&words::inputs(&comparison.domains))),
         escaped(&against),
-        comparison.cost.measured(),
+        escaped(&comparison.how()),
     );
     table(comparison, page);
     if comparison.domains.len() > 2 {
@@ -210,14 +260,14 @@ fn cell(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
 fn table(comparison: &Comparison<'_>, page: &mut String) {
     let has = |some: fn(&Row) -> bool| comparison.entries.iter().any(|entry| some(entry.row));
     let instructions = comparison.cost != Cost::Instructions && has(|row| row.instructions.is_some());
-    let device = has(|row| row.gpu_ns.is_some());
+    let device = comparison.cost != Cost::Device && has(|row| row.gpu_ns.is_some());
     let bytes = comparison.cost != Cost::Bytes && has(|row| row.bytes.is_some());
     let cheapest = comparison.entries.iter().map(|entry| entry.cost).fold(f64::INFINITY, f64::min);
     page.push_str(
         "<div class=\"scroll\"><table><thead><tr><th>method</th><th class=\"n\" aria-sort=\"ascending\">rms error</th>\
          <th class=\"n\">largest error</th>",
     );
-    let _ = write!(page, "<th class=\"n\">{}</th><th class=\"n\">× cheapest</th>", short(comparison.cost));
+    let _ = write!(page, "<th class=\"n\">{}</th><th class=\"n\">× cheapest</th>", short(comparison));
     for (there, name) in [(instructions, "instructions"), (device, "device pixel"), (bytes, "memory")] {
         if there {
             let _ = write!(page, "<th class=\"n\">{name}</th>");
@@ -242,22 +292,27 @@ fn table(comparison: &Comparison<'_>, page: &mut String) {
         if bytes {
             page.push_str(&cell(row.bytes.map(|x| x as f64), |x| words::cost(x, Cost::Bytes)));
         }
-        let _ = writeln!(
-            page,
-            "<td class=\"small\">{}</td></tr>",
-            escaped(&words::shortened(row.at.as_deref().unwrap_or("")))
-        );
+        let _ = writeln!(page, "<td class=\"small\">{}</td></tr>", escaped(&notes(row)));
     }
     page.push_str("</tbody></table></div>\n");
 }
 
-fn short(cost: Cost) -> &'static str {
-    match cost {
+fn short(comparison: &Comparison<'_>) -> &'static str {
+    match comparison.cost {
+        Cost::Batch if comparison.term == "prefilter" => "a texel of a bake",
         Cost::Batch => "batch element",
         Cost::Call => "one call",
         Cost::Bytes => "memory",
+        Cost::Device => "device pixel",
         Cost::Instructions => "instructions",
     }
+}
+
+/// Where the largest error is, and what else is to be known.
+fn notes(row: &Row) -> String {
+    let at = words::shortened(row.at.as_deref().unwrap_or(""));
+    let notes = [at.as_str(), row.note.as_deref().unwrap_or("")];
+    notes.into_iter().filter(|note| !note.is_empty()).collect::<Vec<_>>().join("; ")
 }
 
 fn tags(row: &Row) -> String {

@@ -1,6 +1,8 @@
 //! The parts of the report: what is measured, each in a file of its own.
 
 pub mod brdf;
+mod coupling;
+mod encode;
 pub mod energy;
 mod frames;
 pub mod ibl;
@@ -14,6 +16,7 @@ pub mod precision;
 pub mod shaders;
 pub mod specular_aa;
 mod split_sum;
+mod stations;
 mod texels;
 
 use crate::{Effort, Row};

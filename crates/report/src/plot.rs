@@ -128,7 +128,7 @@ fn draw(comparison: &Comparison<'_>, root: Area<'_>) -> Drawn {
         .axis_style(BEATEN)
         .x_labels(24)
         .y_labels(24)
-        .x_desc(comparison.cost.title())
+        .x_desc(comparison.cost_title())
         .y_desc(unit.title())
         .axis_desc_style(text(15, &MUTED))
         .label_style(text(14, &MUTED))
@@ -242,18 +242,22 @@ fn marks([low, high]: [f64; 2]) -> Vec<f64> {
 fn cost_mark(x: f64, cost: Cost) -> String {
     match cost {
         Cost::Bytes => words::cost(x, cost),
-        Cost::Batch | Cost::Call | Cost::Instructions => plain(x),
+        Cost::Batch | Cost::Call | Cost::Device | Cost::Instructions => plain(x),
     }
 }
 
 /// A mark of the axis of errors.
 fn error_mark(y: f64, unit: Unit) -> String {
     match unit {
-        Unit::Relative if y >= 0.9e-3 => format!("{} %", plain(100.0 * y)),
-        Unit::Degrees if y >= 0.9e-3 => format!("{}°", plain(y)),
-        _ if y >= 0.9e-3 => plain(y),
-        _ => words::power_of_ten(y.log10().round() as i32),
+        Unit::Relative => format!("{} %", short(100.0 * y)),
+        Unit::Degrees => format!("{}°", short(y)),
+        Unit::Ulps | Unit::Plain => short(y),
     }
+}
+
+/// A round number, as a power of ten where it is small.
+fn short(x: f64) -> String {
+    if x >= 0.9e-3 { plain(x) } else { words::power_of_ten(x.log10().round() as i32) }
 }
 
 /// A round number as it is said: 0.2, 50, 2000.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use halfvector_graph::method::TERMS;
 
-use crate::comparison::{Budget, Comparison, Cost, Unit, comparisons};
+use crate::comparison::{Budget, Comparison, Cost, Entry, Unit, comparisons};
 use crate::plot::{alone, scatter};
 use crate::{Report, Row, words};
 
@@ -68,7 +68,10 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
          out/report/report.json docs/accuracy.json\nHALFVECTOR_BLESS=1 cargo test --workspace --test all -- accuracy\n```\n\n\
          `out/report/index.html` is the same with plots, inputs and where each error is largest.\n\n## What to choose\n\nThe \
          cheapest method whose rms error is within {} % ({}° for angles) for **mobile** and within {} % ({}°) for **desktop**; the \
-         cheapest of those within 5 % of the least error for **film**. In brackets: no method keeps the limit, this is the one for film.\n\n\
+         cheapest of those within 5 % of the least error for **film**. In brackets: no method keeps the limit, this is the one for film. \
+         What is weighed is the time on the device{} where every method has one, else the cost in the tables below; of methods that take \
+         as long, within their spread, it is the more accurate. Only what `--method` knows is recommended, and what the library alone \
+         has stands behind it.\n\n\
          | term | inputs | mobile | desktop | film |\n|---|---|---|---|---|\n",
         report.machine,
         report.date,
@@ -77,12 +80,22 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
         Unit::Degrees.limit(Budget::Mobile),
         100.0 * Unit::Relative.limit(Budget::Desktop),
         Unit::Degrees.limit(Budget::Desktop),
+        comparisons
+            .iter()
+            .flat_map(|comparison| &comparison.entries)
+            .find_map(|entry| entry.row.gpu.as_deref())
+            .map_or(String::new(), |name| format!(" ({name})")),
     );
     for comparison in comparisons {
         let chosen = Budget::ALL.map(|budget| {
-            let entry = comparison.choice(budget);
-            let text = format!("`{}` {}", entry.row.method, words::error(entry.rms, comparison.unit));
-            if comparison.keeps(entry, budget) { text } else { format!("({text})") }
+            let choice = comparison.recommended(budget);
+            let said = |entry: &Entry<'_>| {
+                format!("`{}` {}", cell(&entry.row.method), words::error(entry.rms, comparison.unit))
+            };
+            let text = said(choice.entry);
+            let text = if choice.keeps { text } else { format!("({text})") };
+            let text = if choice.library_only { format!("{text}, library only") } else { text };
+            choice.of_library.map_or(text.clone(), |entry| format!("{text}; library: {}", said(entry)))
         });
         let inputs = words::inputs(&comparison.domains);
         let _ = writeln!(page, "| `{}` | {} | {} |", comparison.term, cell(&inputs), chosen.join(" | "));
@@ -96,11 +109,11 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
             words::finding(comparison),
             words::inputs(&comparison.domains),
             words::against(comparison.domains[0]),
-            comparison.cost.measured(),
+            comparison.how(),
             match comparison.cost {
                 Cost::Bytes => "memory",
                 Cost::Instructions => "instructions",
-                Cost::Batch | Cost::Call => "time",
+                Cost::Batch | Cost::Call | Cost::Device => "time",
             },
         );
         let cheapest = comparison.entries.iter().map(|entry| entry.cost).fold(f64::INFINITY, f64::min);
@@ -134,10 +147,11 @@ fn precision(report: &Report, page: &mut String) {
         .map_or(String::new(), |name| format!(", and where the name says `device` by the WGSL on {}", cell(name)));
     let _ = write!(
         page,
-        "\n## Precision on hard cases\n\nCosines from 1e-6, roughness from 0.0001; on the CPU, f16 with each operation \
+        "\n## precision: {}\n\nHard cases: cosines from 1e-6, roughness from 0.0001; on the CPU, f16 with each operation \
          rounded{device}. The error is in units in the last place of the format; `lost` counts results that are NaN or infinite \
          although the format holds the right one.\n\n| form and format | rms [ulp] | largest [ulp] | lost | first lost \
-         |\n|---|---|---|---|---|\n"
+         |\n|---|---|---|---|---|\n",
+        words::precision(&rows)
     );
     for row in rows.iter().filter(|row| !row.method.contains(" f64")) {
         let number = |x: Option<f64>| x.map_or(String::new(), words::number);
@@ -174,10 +188,12 @@ fn methods_csv(comparisons: &[Comparison<'_>], rows: &[Row]) -> String {
                 continue;
             }
             let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.3e}"));
-            let beside = found.filter(|(comparison, _)| comparison.cost.is_time()).and_then(|(comparison, entry)| {
-                let default = comparison.entries.iter().find(|entry| named(entry.row, term.methods[0].name))?;
-                Some(entry.cost / default.cost)
-            });
+            let beside = found.filter(|(comparison, _)| matches!(comparison.cost, Cost::Batch | Cost::Call)).and_then(
+                |(comparison, entry)| {
+                    let default = comparison.entries.iter().find(|entry| named(entry.row, term.methods[0].name))?;
+                    Some(entry.cost / default.cost)
+                },
+            );
             let unit = found.map_or("", |(comparison, _)| match comparison.unit {
                 Unit::Relative => "relative",
                 Unit::Degrees => "degrees",

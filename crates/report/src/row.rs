@@ -22,6 +22,9 @@ pub struct Row {
     pub error_max: Option<f64>,
     /// Root of the mean square of the errors.
     pub error_rms: Option<f64>,
+    /// Where the error is lost in the noise of its truth, so that `error_rms` is null: the rms error is at most this, by two
+    /// standard errors.
+    pub error_bound: Option<f64>,
     /// The input of the largest error.
     pub at: Option<String>,
     /// Of a picture: mean FLIP, how different it looks, 0 to 1. Andersson et al. 2021, "Visualizing and Communicating Errors in
@@ -45,10 +48,14 @@ pub struct Row {
     pub instructions: Option<u64>,
     /// Time of a pixel of that shader on the device [ns]: the shortest of several turns.
     pub gpu_ns: Option<f64>,
+    /// How sure `gpu_ns` is: by how much of it the turn in the middle took longer.
+    pub gpu_spread: Option<f64>,
     /// The device's name; a software rasteriser has its own name, too.
     pub gpu: Option<String>,
     /// Memory that it reads from tables or textures [bytes].
     pub bytes: Option<u64>,
+    /// Why a figure that one would look for is not there, or what one has to know of it.
+    pub note: Option<String>,
     /// No other method of its term and domain is cheaper and at least as accurate, or more accurate and as cheap; set by
     /// [`mark_pareto`](crate::mark_pareto).
     pub pareto: bool,

@@ -16,6 +16,9 @@ pub const SITTINGS: usize = 5;
 /// Long beside the clock's step and what the first run has to fetch.
 const ROUND: Duration = Duration::from_micros(50);
 
+/// What takes longer than this is as slow the first time as the second: a single round needs no run before it.
+const LONG: Duration = Duration::from_millis(20);
+
 /// From one sitting to the next.
 const PAUSE: Duration = Duration::from_millis(60);
 
@@ -31,7 +34,8 @@ pub struct Time {
 }
 
 /// Times each candidate over `rounds` interleaved rounds in all; in a round it runs as often as fills [`ROUND`]. Rounds that
-/// warm up are not counted: one of each sitting, or the very first where a sitting is one round.
+/// warm up are not counted: one of each sitting, or the very first where a sitting is one round, unless that took long: then it is
+/// the only run of a candidate of one round.
 pub fn measured(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<Time> {
     let sittings = rounds.clamp(1, SITTINGS);
     let each = rounds.div_ceil(sittings);
@@ -40,12 +44,15 @@ pub fn measured(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<Time> {
     all.push(&mut yardstick);
     let mut runs = vec![1; all.len()];
     let mut medians = vec![Vec::with_capacity(sittings); all.len()];
+    let mut only: Vec<Option<f64>> = vec![None; all.len()];
     for sitting in 0..sittings {
         if sitting == 0 {
-            for (candidate, runs) in all.iter_mut().zip(&mut runs) {
+            for ((candidate, runs), only) in all.iter_mut().zip(&mut runs).zip(&mut only) {
                 let often = |seconds: f64| (ROUND.as_secs_f64() / seconds.max(1e-9)).clamp(1.0, 1000.0) as u32;
                 // The first run fetches what the others need, and says little of them.
-                *runs = often(seconds_of(*candidate, sitting, 1));
+                let first = seconds_of(*candidate, sitting, 1);
+                *only = (rounds == 1 && first > LONG.as_secs_f64()).then_some(first);
+                *runs = often(first);
                 if *runs > 1 {
                     *runs = often(seconds_of(*candidate, sitting, *runs));
                 }
@@ -54,8 +61,8 @@ pub fn measured(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<Time> {
         let warm_up = usize::from(each > 1);
         let mut seconds = vec![Vec::with_capacity(each); all.len()];
         for round in 0..warm_up + each {
-            for ((candidate, &runs), seconds) in all.iter_mut().zip(&runs).zip(&mut seconds) {
-                let time = seconds_of(*candidate, sitting, runs);
+            for (((candidate, &runs), seconds), only) in all.iter_mut().zip(&runs).zip(&mut seconds).zip(&only) {
+                let time = only.unwrap_or_else(|| seconds_of(*candidate, sitting, runs));
                 if round >= warm_up {
                     seconds.push(time);
                 }
@@ -136,6 +143,19 @@ mod tests {
         assert!(times[0].seconds < times[1].seconds && times[0].pace > 0.0, "{times:?}");
         assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
         assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), 2.5);
+    }
+
+    #[test]
+    fn what_takes_long_runs_once_when_one_round_is_asked_for() {
+        let mut runs = 0;
+        let mut long = |_| {
+            runs += 1;
+            std::thread::sleep(2 * LONG);
+            0.0
+        };
+        let times = measured(&mut [&mut long], 1);
+        assert!(times[0].seconds > LONG.as_secs_f64() && times[0].spread.is_none());
+        assert_eq!(runs, 1);
     }
 
     #[test]

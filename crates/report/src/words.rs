@@ -1,5 +1,6 @@
 //! Numbers and findings in words: what a plot shows, said from its data.
 
+use crate::Row;
 use crate::comparison::{Budget, Comparison, Cost, Entry, Unit};
 
 /// A number with two digits that count: 0.013, 42, 5.1×10⁻⁸.
@@ -43,13 +44,22 @@ pub fn power_of_ten(exponent: i32) -> String {
     format!("10{}", exponent.to_string().chars().map(raised).collect::<String>())
 }
 
-/// An error with its unit: 13 %, 5.1×10⁻⁸, 12°.
+/// An error with its unit, the same one however small it is: 13 %, 5.1×10⁻⁶ %, 12°.
 pub fn error(x: f64, unit: Unit) -> String {
     match unit {
-        Unit::Relative if x >= 1e-4 => format!("{} %", number(100.0 * x)),
+        Unit::Relative => format!("{} %", number(100.0 * x)),
         Unit::Degrees => format!("{}°", number(x)),
         Unit::Ulps => format!("{} ulp", number(x)),
-        Unit::Relative | Unit::Plain => number(x),
+        Unit::Plain => number(x),
+    }
+}
+
+/// The rms error of a row, or what it is at most where noise hides it; empty where neither is known.
+pub fn rms(row: &Row, unit: Unit) -> String {
+    match (row.error_rms, row.error_bound) {
+        (Some(rms), _) => error(rms, unit),
+        (None, Some(bound)) => format!("below noise (≤ {})", error(bound, unit)),
+        (None, None) => String::new(),
     }
 }
 
@@ -91,6 +101,32 @@ pub fn finding(comparison: &Comparison<'_>) -> String {
         _ => format!("is {} times as fast", if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") }),
     };
     format!("`{name}` {errs}; `{}` {saves} but errs {}", cheapest.row.method, text(cheapest))
+}
+
+/// What number formats do to the hard cases: how far off the worst forms are, and how many give no number.
+pub fn precision(rows: &[&Row]) -> String {
+    let worst = |format: &str| {
+        let mut own: Vec<(f64, &str)> = rows
+            .iter()
+            .filter(|row| row.method.split(' ').any(|word| word == format))
+            .filter_map(|row| Some((row.error_max?, row.method.as_str())))
+            .collect();
+        own.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let (most, name) = *own.first()?;
+        // One that is far off by itself does not speak for the others.
+        let next = own.get(1).filter(|next| most > 100.0 * next.0);
+        let next =
+            next.map_or(String::new(), |(next, name)| format!(", the next, `{name}`, {}", error(*next, Unit::Ulps)));
+        Some(format!("in {format} `{name}` is the farthest off, {}{next}", error(most, Unit::Ulps)))
+    };
+    let lost = rows.iter().filter(|row| row.not_finite > Some(0)).count();
+    let lost = match lost {
+        0 => "nothing gives NaN or infinity".to_owned(),
+        _ => format!("{lost} of {} give NaN or infinity where the right result is a number", rows.len()),
+    };
+    let said: Vec<String> = [worst("f32"), worst("f16")].into_iter().flatten().chain([lost]).collect();
+    let text = said.join("; ");
+    text[..1].to_uppercase() + &text[1..]
 }
 
 /// The inputs of the domains of a comparison, without repeating what they share.
@@ -155,8 +191,27 @@ mod tests {
             ["0", "0.90", "0.013", "3.4", "42", "8100", "20\u{202f}649", "4.9×10⁻⁸", "1.6×10⁷"].map(str::to_owned)
         );
         assert_eq!(error(0.134, Unit::Relative), "13 %");
+        assert_eq!(error(5.1e-8, Unit::Relative), "5.1×10⁻⁶ %");
         assert_eq!(error(12.3, Unit::Degrees), "12°");
+        let hidden = Row { error_bound: Some(0.02), ..Row::default() };
+        assert_eq!(rms(&hidden, Unit::Relative), "below noise (≤ 2.0 %)");
         assert_eq!(cost(16_773_120.0, Cost::Bytes), "17 MB");
+    }
+
+    #[test]
+    fn an_outlier_of_precision_is_named() {
+        let row = |method: &str, most, lost| Row {
+            error_max: Some(most),
+            not_finite: Some(lost),
+            ..Row::new("precision", method, "hard cases; in ulp of it")
+        };
+        let rows =
+            [row("d_a f32 device", 9e6, 0), row("d_b f32", 67.0, 0), row("d_b f16", 3.0, 2), row("d_b f64", 0.0, 0)];
+        assert_eq!(
+            precision(&rows.iter().collect::<Vec<_>>()),
+            "In f32 `d_a f32 device` is the farthest off, 9.0×10⁶ ulp, the next, `d_b f32`, 67 ulp; in f16 `d_b f16` is the \
+             farthest off, 3.0 ulp; 1 of 4 give NaN or infinity where the right result is a number"
+        );
     }
 
     #[test]

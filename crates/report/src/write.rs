@@ -5,8 +5,8 @@ use crate::Row;
 /// The rows as CSV, with a line of names; a figure that does not apply is empty.
 pub fn csv(rows: &[Row]) -> String {
     let mut text =
-        "term,method,domain,error_max,error_rms,at,flip,not_finite,first_failure,cost_ns,cost_spread,cost_batch_ns,cost_batch_spread,yardstick_ns,instructions,\
-         gpu_ns,gpu,bytes,pareto\n"
+        "term,method,domain,error_max,error_rms,error_bound,at,flip,not_finite,first_failure,cost_ns,cost_spread,cost_batch_ns,cost_batch_spread,yardstick_ns,instructions,\
+         gpu_ns,gpu_spread,gpu,bytes,note,pareto\n"
             .to_owned();
     for row in rows {
         let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:e}"));
@@ -18,6 +18,7 @@ pub fn csv(rows: &[Row]) -> String {
             quoted(&row.domain),
             number(row.error_max),
             number(row.error_rms),
+            number(row.error_bound),
             word(&row.at),
             number(row.flip),
             count(row.not_finite),
@@ -29,8 +30,10 @@ pub fn csv(rows: &[Row]) -> String {
             number(row.yardstick_ns),
             count(row.instructions),
             number(row.gpu_ns),
+            number(row.gpu_spread),
             word(&row.gpu),
             count(row.bytes),
+            word(&row.note),
             row.pareto.to_string(),
         ];
         text.push_str(&fields.join(","));
@@ -82,7 +85,7 @@ mod tests {
     fn text_with_commas_stays_one_field() {
         let row = Row { at: Some("n.v = 0, \"floor\"".into()), error_max: Some(0.5), ..Row::new("d", "ggx", "a, b") };
         let text = csv(std::slice::from_ref(&row));
-        assert_eq!(text.lines().nth(1), Some("d,ggx,\"a, b\",5e-1,,\"n.v = 0, \"\"floor\"\"\",,,,,,,,,,,,,false"));
+        assert_eq!(text.lines().nth(1), Some("d,ggx,\"a, b\",5e-1,,,\"n.v = 0, \"\"floor\"\"\",,,,,,,,,,,,,,,false"));
         let columns = |line: usize| {
             text.lines().nth(line).map(|line| line.replace("a, b", "").replace("0, ", "").split(',').count())
         };

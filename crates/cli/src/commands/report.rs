@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use halfvector_report::part::shaders;
@@ -18,7 +19,8 @@ use crate::output::{check_place, note, print, write_file};
   halfvector report --quick -o out/report
   halfvector report --quick --compare out/report/report.json -o out/new
 
-Exit code 3: --compare found something slower or less accurate.")]
+Exit code 3: --compare found something slower or less accurate. 130: interrupted (Ctrl-C); what was measured is kept, and
+it says where.")]
 pub(crate) struct ReportArgs {
     /// Folder for index.html, report.json and the CSV files
     #[arg(short, long, value_name = "DIR")]
@@ -36,6 +38,10 @@ pub(crate) struct ReportArgs {
 
 /// How often what seems to be slower is measured again before it is told.
 const CONFIRMATIONS: usize = 5;
+
+/// What a shell says of a command that an interrupt ended: 128 and the signal's number.
+#[cfg(unix)]
+const INTERRUPTED: i32 = 130;
 
 /// Before it is measured again.
 const CALM: Duration = Duration::from_secs(2);
@@ -56,6 +62,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
         failure.try_to("another folder, or one with other permissions")
     })?;
     let mut report = Report::begun(effort);
+    let kept = Kept::told_when_interrupted(&args.output);
     let start = Instant::now();
     for (done, part) in parts.iter().enumerate() {
         let before: f64 = parts[..done].iter().map(|part| part.seconds(effort)).sum();
@@ -67,7 +74,6 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
         bar.set_position((1000.0 * before / all) as u64);
         let mut rows = (part.rows)(effort);
         bar.finish_and_clear();
-        note(format_args!("{}: {} rows", part.name, rows.len()));
         let first = report.rows.len();
         report.rows.append(&mut rows);
         shaders::share(&mut report.rows);
@@ -78,6 +84,8 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
         report.parts.push(part.name.to_owned());
         write_file(&args.output.join("report.json"), report.to_json().as_bytes())?;
         write_file(&args.output.join("index.html"), page::html(&report).as_bytes())?;
+        kept.add(part.name);
+        note(format_args!("{}: {} rows", part.name, report.rows.len() - first));
     }
     let page = args.output.join("index.html");
     note(format_args!("{} after {}", page.display(), in_words(start.elapsed().as_secs_f64())));
@@ -108,6 +116,51 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     let (common, worse) = (compare::common(&old, &report), changes.len());
     note(format_args!("figures that are worse: {worse}, of {common} rows that the report of {} has, too", old.date));
     Ok(if changes.is_empty() { 0 } else { FOUND })
+}
+
+/// The parts whose figures are written already.
+#[derive(Clone, Default)]
+struct Kept(Arc<Mutex<Vec<&'static str>>>);
+
+impl Kept {
+    /// Of a report that is written to a folder: when the command is interrupted, it says what stands there and ends.
+    fn told_when_interrupted(folder: &Path) -> Kept {
+        let kept = Kept::default();
+        let (told, folder) = (kept.clone(), folder.to_owned());
+        on_interrupt(move || note(told.in_words(&folder)));
+        kept
+    }
+
+    fn add(&self, part: &'static str) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(part);
+    }
+
+    fn in_words(&self, folder: &Path) -> String {
+        let parts = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let folder = folder.display();
+        if parts.is_empty() {
+            return format!("interrupted before the first part was measured: nothing new stands in {folder}");
+        }
+        format!(
+            "interrupted: what is measured is kept in {folder}: {} (index.html, report.json, CSV files)",
+            parts.join(", ")
+        )
+    }
+}
+
+/// Ends the process on an interrupt, after a last word. Where the system has no such signal an interrupt ends it without a word.
+fn on_interrupt(last_word: impl FnOnce() + Send + 'static) {
+    #[cfg(unix)]
+    if let Ok(mut signals) = signal_hook::iterator::Signals::new([signal_hook::consts::SIGINT]) {
+        std::thread::spawn(move || {
+            if signals.forever().next().is_some() {
+                last_word();
+                std::process::exit(INTERRUPTED);
+            }
+        });
+    }
+    #[cfg(not(unix))]
+    drop(last_word);
 }
 
 /// Whether an old report has any of the parts that are to be measured.

@@ -40,17 +40,33 @@ fn inputs_of(row: &Row) -> &str {
     row.domain.rsplit_once(';').map_or(row.domain.as_str(), |(inputs, _)| inputs)
 }
 
-/// Whether the rows have an error alone, for every method in several cases.
+/// Whether the rows have an error for every method in several cases, and of all else the same figures in nearly all cases.
 fn is_matrix(rows: &[&Row]) -> bool {
-    let has_error_alone = |row: &&Row| {
-        let figures = [row.flip, row.cost_ns, row.cost_batch_ns, row.gpu_ns];
-        row.error_rms.is_some()
-            && figures.iter().all(Option::is_none)
-            && [row.not_finite, row.instructions, row.bytes].iter().all(Option::is_none)
-    };
+    let has_error = |row: &&Row| row.error_rms.is_some() && row.flip.is_none() && row.not_finite.is_none();
     let methods = distinct(rows.iter().map(|row| row.method.as_str())).len();
     let cases = distinct(rows.iter().map(|row| row.domain.as_str())).len();
-    rows.iter().all(has_error_alone) && cases > 2 && methods * cases == rows.len()
+    rows.iter().all(has_error) && cases > 2 && methods * cases == rows.len()
+}
+
+/// What each method of a matrix takes: the same in every case, or the median of the cases.
+fn costs(rows: &[&Row], methods: &[&str]) -> String {
+    let of = |method: &str, figure: fn(&Row) -> Option<f64>| -> Option<f64> {
+        let found: Vec<f64> = rows.iter().filter(|row| row.method == method).filter_map(|row| figure(row)).collect();
+        (!found.is_empty()).then(|| median(found))
+    };
+    let said = |method: &&str| {
+        let figures = [
+            of(method, |row| row.cost_ns).map(|x| words::cost(x, Cost::Call)),
+            of(method, |row| row.bytes.map(|x| x as f64))
+                .map(|x| format!("reads from {}", words::cost(x, Cost::Bytes))),
+            of(method, |row| row.instructions.map(|x| x as f64)).map(|x| format!("a shader of {x:.0} instructions")),
+            of(method, |row| row.gpu_ns).map(|x| format!("{} for a pixel on the device", words::cost(x, Cost::Device))),
+        ];
+        let figures: Vec<String> = figures.into_iter().flatten().collect();
+        (!figures.is_empty()).then(|| format!("{method}: {}", figures.join(", ")))
+    };
+    let all: Vec<String> = methods.iter().filter_map(said).collect();
+    if all.is_empty() { String::new() } else { format!(" Cost: {}.", all.join("; ")) }
 }
 
 /// The rms error of each method, which have a column each, in each case.
@@ -73,7 +89,13 @@ pub(super) fn matrix(rows: &[&Row], page: &mut String) {
     }
     page.push_str("</tbody></table></div>\n");
     let against = words::against(domains.first().copied().unwrap_or_default());
-    let _ = writeln!(page, "<p class=\"small muted\">Rms errors. {}{}.</p>", escaped(&shared), escaped(against));
+    let _ = writeln!(
+        page,
+        "<p class=\"small muted\">Rms errors. {}{}.{}</p>",
+        escaped(&shared),
+        escaped(against),
+        escaped(&costs(rows, &methods))
+    );
 }
 
 /// What texts share behind their first colon, and what each has before it; nothing and the whole texts where they differ.
@@ -91,7 +113,7 @@ fn split(texts: &[String]) -> (String, Vec<String>) {
 fn plain(rows: &[&Row], page: &mut String) {
     let has = |some: fn(&Row) -> bool| rows.iter().any(|row| some(row));
     let columns = [
-        ("rms error", has(|row| row.error_rms.is_some())),
+        ("rms error", has(|row| row.error_rms.or(row.error_bound).is_some())),
         ("largest error", has(|row| row.error_max.is_some())),
         ("FLIP", has(|row| row.flip.is_some())),
         ("NaN or inf", has(|row| row.not_finite.is_some())),
@@ -104,7 +126,11 @@ fn plain(rows: &[&Row], page: &mut String) {
     page.push_str("<div class=\"scroll\"><table class=\"grouped\"><thead><tr><th>method</th>");
     let shown = columns.iter().filter(|(_, there)| *there);
     for (name, _) in shown.clone() {
-        let name = if *name == "one call" && rows[0].term == "picture" { "one picture" } else { name };
+        let name = match (*name, rows[0].term.as_str()) {
+            ("one call", "picture") => "one picture",
+            ("one call", "peer") => "time",
+            (name, _) => name,
+        };
         let _ = write!(page, "<th class=\"n\">{name}</th>");
     }
     page.push_str("<th></th></tr></thead><tbody>\n");
@@ -115,7 +141,7 @@ fn plain(rows: &[&Row], page: &mut String) {
             let _ = write!(page, "<tr><td>{}{}</td>", escaped(&row.method), tags(row));
             let error = |x| words::error(x, Unit::of(&row.domain));
             let cells = [
-                cell(row.error_rms, error),
+                cell(row.error_rms.or(row.error_bound), |_| words::rms(row, Unit::of(&row.domain))),
                 cell(row.error_max, error),
                 cell(row.flip, words::number),
                 cell(row.not_finite.map(|x| x as f64), |x| format!("{x:.0}")),
@@ -129,7 +155,8 @@ fn plain(rows: &[&Row], page: &mut String) {
                 page.push_str(cell);
             }
             let failure = row.first_failure.as_deref().map(|at| format!("fails first at {}", words::shortened(at)));
-            let notes = [words::against(&row.domain).to_owned(), failure.unwrap_or_default()];
+            let note = row.note.clone().unwrap_or_default();
+            let notes = [words::against(&row.domain).to_owned(), failure.unwrap_or_default(), note];
             let notes: Vec<&str> = notes.iter().map(String::as_str).filter(|note| !note.is_empty()).collect();
             let _ = writeln!(page, "<td class=\"small\">{}</td></tr>", escaped(&notes.join("; ")));
         }
@@ -142,12 +169,11 @@ fn finding(rows: &[&Row]) -> Option<String> {
     if rows[0].term == "peer" {
         return peers(rows);
     }
+    if rows[0].term == "picture" {
+        return pictures(rows);
+    }
     if rows.iter().all(|row| row.not_finite.is_some()) {
-        let lost = rows.iter().filter(|row| row.not_finite > Some(0)).count();
-        return Some(match lost {
-            0 => "Nothing here gives NaN or infinity".to_owned(),
-            _ => format!("{lost} of {} give NaN or infinity where the right result is a number", rows.len()),
-        });
+        return Some(words::precision(rows));
     }
     let methods = distinct(rows.iter().map(|row| row.method.as_str()));
     // Of pictures it is said how different they look.
@@ -189,6 +215,44 @@ fn finding(rows: &[&Row]) -> Option<String> {
     Some(told.iter().filter_map(said).collect::<Vec<_>>().join("; "))
 }
 
+/// What drawers differ by from the reference, and what specialising saves.
+fn pictures(rows: &[&Row]) -> Option<String> {
+    let of = |method: &str, figure: fn(&Row) -> Option<f64>| -> Option<f64> {
+        let found: Vec<f64> = rows.iter().filter(|row| row.method == method).filter_map(|row| figure(row)).collect();
+        (!found.is_empty()).then(|| median(found))
+    };
+    let looks = |method: &str| {
+        let flip = of(method, |row| row.flip)?;
+        Some(format!("`{method}` looks a FLIP of {} different from the reference", words::number(flip)))
+    };
+    // Each example's two shaders, one over the other.
+    let ratio = |figure: fn(&Row) -> Option<f64>| -> Option<f64> {
+        let example = |row: &Row| row.domain.split(':').next().map(str::to_owned);
+        let ratios = rows.iter().filter(|row| row.method == "gpu").filter_map(|own| {
+            let is_other = |row: &&&Row| row.method == "gpu, unspecialised" && example(row) == example(own);
+            Some(figure(own)? / figure(rows.iter().find(is_other)?)?)
+        });
+        let ratios: Vec<f64> = ratios.collect();
+        (!ratios.is_empty()).then(|| median(ratios))
+    };
+    let saves = ratio(|row| row.instructions.map(|x| x as f64)).map(|count| {
+        let time = ratio(|row| row.gpu_ns)
+            .map_or(String::new(), |time| format!(" and {} % of its time on the device", words::number(100.0 * time)));
+        format!(
+            "the specialised shader has {} % of the unspecialised one's instructions{time}",
+            words::number(100.0 * count)
+        )
+    });
+    let said: Vec<String> = [looks("gpu"), looks("cpu"), saves].into_iter().flatten().collect();
+    (!said.is_empty()).then(|| format!("{} (medians of the examples)", said.join("; ")))
+}
+
+/// When a row was recorded, where it was not measured in this run.
+fn recorded(row: &Row) -> Option<&str> {
+    let (_, rest) = row.domain.split_once("recorded on ")?;
+    rest.get(..10)
+}
+
 /// Each of our programs beside the other at the same work.
 fn peers(rows: &[&Row]) -> Option<String> {
     let work = |row: &Row| row.domain.split(';').next().unwrap_or_default().to_owned();
@@ -201,7 +265,20 @@ fn peers(rows: &[&Row]) -> Option<String> {
                 rows.iter().skip_while(|row| row.method != *method).skip(1).find(|row| work(row) == work(ours))?;
             let (cost, [a, b]) = costs.iter().find_map(|cost| Some((cost, [cost.of(ours)?, cost.of(other)?])))?;
             let what = if cost.is_time() { "of the time" } else { "of the instructions" };
-            Some(format!("`{}` takes {} % {what} of `{}`", ours.method, words::number(100.0 * a / b), other.method))
+            let when = match (recorded(ours), recorded(other)) {
+                (Some(day), Some(_)) => format!(" (both recorded on {day})"),
+                (_, Some(day)) => format!(" (recorded on {day}, maybe on another machine)"),
+                _ => String::new(),
+            };
+            let errors = match (ours.error_rms, other.error_rms) {
+                (Some(a), Some(b)) => {
+                    let unit = Unit::of(&ours.domain);
+                    format!(" and errs {} instead of {}", words::error(a, unit), words::error(b, unit))
+                }
+                _ => String::new(),
+            };
+            let part = words::number(100.0 * a / b);
+            Some(format!("`{}` takes {part} % {what} of `{}`{when}{errors}", ours.method, other.method))
         })
         .collect();
     (!said.is_empty()).then(|| said.join("; "))
@@ -232,13 +309,18 @@ mod tests {
             "{page}"
         );
         assert!(page.contains("<tr><td>ball</td>") && page.contains("Of all: a mesh; in degrees."), "{page}");
+        let hidden = [Row { error_rms: None, error_bound: Some(0.5), ..row("a", "x; in degrees", 0.0) }];
+        assert!(shown(&hidden).contains(">below noise (≤ 0.50°)</td>"), "{}", shown(&hidden));
         assert!(shown(&rows[1..]).contains("<tr class=\"case\">"), "a case without a method is no matrix");
     }
 
     #[test]
     fn peers_are_set_beside_the_same_work() {
-        let mut rows = vec![Row::new("peer", "ours", "a bake; now"), Row::new("peer", "theirs", "a bake; recorded")];
+        let mut rows = vec![Row::new("peer", "ours", "a bake; now"), Row::new("peer", "theirs", "a bake; now")];
         (rows[0].cost_ns, rows[1].cost_ns) = (Some(2.0), Some(8.0));
-        assert!(shown(&rows).contains("<code>ours</code> takes 25 % of the time of <code>theirs</code>"));
+        assert!(shown(&rows).contains("<code>ours</code> takes 25 % of the time of <code>theirs</code></h3>"));
+        rows[1].domain = "a bake; recorded on 2026-11-22, elsewhere".into();
+        let page = shown(&rows);
+        assert!(page.contains("of <code>theirs</code> (recorded on 2026-11-22, maybe on another machine)"), "{page}");
     }
 }

@@ -1,5 +1,5 @@
 //! The split sum's pair: tables of several sizes and layouts, and analytic fits, against quadrature; and what the light that
-//! bounces more than once adds to it.
+//! bounces more than once adds to it, and the base under it.
 
 use halfvector_brdf::albedo::{directional_albedo_ggx, directional_albedo_ggx_with, gauss_legendre};
 use halfvector_brdf::dfg::{dfg_fit, dfg_karis};
@@ -7,7 +7,7 @@ use halfvector_brdf::ggx::v_smith_ggx_correlated;
 use halfvector_ibl::environment::dfg_from_table;
 use halfvector_ibl::{DFG_SIZE, dfg_table};
 
-use super::multiple;
+use super::{coupling, multiple};
 use crate::error::Errors;
 use crate::timing::{self, Candidate};
 use crate::{Effort, Row};
@@ -83,6 +83,7 @@ pub fn rows(effort: Effort) -> Vec<Row> {
         }));
     }
     rows.extend(multiple::rows(effort));
+    rows.extend(coupling::rows(effort));
     rows
 }
 

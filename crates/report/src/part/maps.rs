@@ -7,7 +7,7 @@ use halfvector_maps::blend::{blend_linear, blend_partial_derivatives, blend_rnm,
 use halfvector_maps::derivative::{normal_from_slopes, normal_tbn_derivative};
 use halfvector_maps::normal::{normal_rotation_fixed, normal_rotation_report, normal_tbn};
 
-use super::{frames, texels};
+use super::{encode, frames, texels};
 use crate::error::Errors;
 use crate::placed::Columns;
 use crate::timing::{Candidate, SITTINGS, Time, measured};
@@ -22,6 +22,7 @@ pub fn rows(effort: Effort) -> Vec<Row> {
     rows.extend(frames::rows(effort));
     rows.extend(blends(effort));
     rows.extend(texels::rows(effort));
+    rows.extend(encode::rows(effort));
     rows
 }
 

@@ -1,14 +1,17 @@
 //! Other programs at the same work: measured in this run where they are installed, else as recorded once, with day and machine.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use halfvector_brdf::Real;
 use halfvector_brdf::batch::kernels::SpecularEval;
 use halfvector_brdf::batch::{Kernel, Simd};
-use halfvector_ibl::{BakeOptions, LoadedEnvironment, Source, bake, sky};
+use halfvector_ibl::{BakeOptions, Cube, LoadedEnvironment, Quadrature, Source, bake, sky};
+use rayon::prelude::*;
 
+use super::ibl::{add, texel_centre};
 use super::shaders::default_surface;
+use crate::error::Errors;
 use crate::placed::Columns;
 use crate::timing::{SITTINGS, measured, median};
 use crate::{Effort, Row};
@@ -44,6 +47,7 @@ fn shaders(effort: Effort) -> [Row; 2] {
     };
     let mut other = row("MaterialX 1.39", "its standard surface, values as uniforms", theirs);
     other.cost_ns = Some(milliseconds * 1e6);
+    other.note = Some("the time is that of its generator, from the surface to the text of the shader".to_owned());
     [row("our shader", "what the values do not need is left out", ours), other]
 }
 
@@ -122,21 +126,36 @@ fn mitsuba() -> Option<f64> {
     output.status.success().then_some(1e3 / rate)
 }
 
-/// Bakes of the same map, in turns with Filament's tool.
+/// Faces of a cube as Filament names its files, in our order.
+const FACES: [&str; 6] = ["px", "nx", "py", "ny", "pz", "nz"];
+
+/// Levels of an environment: the perceptual roughness of each, and the radiance in a direction of the map.
+struct Levels {
+    /// Faces' texels along an edge, roughness, and the cube.
+    levels: Vec<(usize, f64, Cube)>,
+    /// Which directions of the map a direction of the cube is.
+    in_map: fn([f64; 3]) -> [f64; 3],
+}
+
+/// Bakes of the same map, in turns with Filament's tool, and the error of each at texel centres of its levels.
 fn bakes(effort: Effort) -> Vec<Row> {
-    const WORK: &str = "bake of the sky to faces of 256 texels, processor time of all cores";
-    let environment = sky();
+    const WORK: &str = "bake of the sky to faces of 256 texels, processor time of all cores, levels of roughness >= 0.2 at texel centres";
+    const AGAINST: &str = "relative error against a sum over texels of the same file";
     let folder = std::env::temp_dir().join(format!("halfvector-report-{}", std::process::id()));
-    let Some(map) = write_hdr(&environment, folder.clone()) else { return Vec::new() };
+    let Some(map) = write_hdr(&sky(), folder.clone()) else { return Vec::new() };
+    // Both read the same file, which holds eight bits of each number.
+    let read = std::fs::read(&map).ok().and_then(|bytes| halfvector_ibl::load(&bytes, "sky.hdr").ok());
+    let Some(environment) = read else { return Vec::new() };
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    let mut baked = None;
     for _ in 0..effort.pick(1, 5) {
         let before = processor_seconds(false);
-        let baked = bake(&environment, &BakeOptions { size: 256, ..BakeOptions::default() });
-        std::hint::black_box(baked.irradiance_sh[0]);
+        let made = bake(&environment, &BakeOptions { size: 256, ..BakeOptions::default() });
         ours.extend(seconds_since(before, false));
+        baked = Some(made);
         let before = processor_seconds(true);
         let made = Command::new("cmgen")
-            .args(["--quiet", "--size=256", "--ibl-samples=1024"])
+            .args(["--quiet", "--size=256", "--ibl-samples=1024", "--no-mirror", "--format=exr"])
             .arg(format!("--ibl-ld={}", folder.display()))
             .arg(&map)
             .stdout(Stdio::null())
@@ -146,18 +165,72 @@ fn bakes(effort: Effort) -> Vec<Row> {
             theirs.extend(seconds_since(before, true));
         }
     }
+    let our_levels = baked.map(|baked| Levels {
+        levels: baked
+            .radiance
+            .into_iter()
+            .zip(baked.roughness)
+            .map(|(cube, r)| (cube.size, f64::from(r), cube))
+            .collect(),
+        in_map: |dir| dir,
+    });
+    let their_levels = filament_levels(&folder.join("sky"));
     // What is left of a temporary folder does no harm.
     let _ = std::fs::remove_dir_all(&folder);
-    let row = |method: &str, what: &str, seconds: Vec<f64>| {
-        let mut row = Row::new("peer", method, &format!("{WORK}; {what}; measured in this run"));
+    let Source::Equirect(map) = &environment.source else { return Vec::new() };
+    let truth = Quadrature::new(map);
+    let row = |method: &str, what: &str, seconds: Vec<f64>, levels: Option<Levels>| {
+        let mut row = Row::new("peer", method, &format!("{WORK}; {what}, measured in this run; {AGAINST}"));
         row.cost_ns = (!seconds.is_empty()).then(|| median(seconds) * 1e9);
+        if let Some(levels) = levels {
+            levels.errors(&truth, effort.pick(24, 400)).fill(&mut row);
+        }
         row.cost_ns.is_some().then_some(row)
     };
     let rows = [
-        row("our bake", "levels, irradiance and harmonics", ours),
-        row("Filament's cmgen", "its levels alone, 1,024 samples", theirs),
+        row("our bake", "levels, irradiance and harmonics", ours, our_levels),
+        row("Filament's cmgen", "its levels alone, 1,024 samples", theirs, their_levels),
     ];
     rows.into_iter().flatten().collect()
+}
+
+impl Levels {
+    /// At evenly spread texel centres of all levels but the first, as the part of light has them.
+    fn errors(&self, truth: &Quadrature, count: usize) -> Errors {
+        let mut errors = Errors::default();
+        let places = (0..count).filter_map(|k| Some((k, self.levels.get(1 + k % (self.levels.len() - 1))?)));
+        let places: Vec<_> = places.filter(|(_, (_, roughness, _))| *roughness >= 0.19).collect();
+        let expected: Vec<[f64; 3]> = places
+            .par_iter()
+            .map(|(k, (size, roughness, _))| truth.prefiltered((self.in_map)(texel_centre(*size, *k)), *roughness))
+            .collect();
+        for ((k, (size, roughness, cube)), expected) in places.into_iter().zip(expected) {
+            let dir = texel_centre(*size, k);
+            add(&mut errors, cube.sample(dir), expected, truth.mean(), || {
+                format!("roughness {roughness:.3}, {dir:.3?}")
+            });
+        }
+        errors
+    }
+}
+
+/// The levels that cmgen wrote, faces as files; none where they are not there. Level l of n has 1 - sqrt(1 - l / (n - 1)) as perceptual
+/// roughness, and x and z are exchanged beside our maps' frame (Guy and Agopian 2018, "Physically Based Rendering in Filament").
+fn filament_levels(folder: &Path) -> Option<Levels> {
+    let level = |number: usize| -> Option<Cube> {
+        let face = |name: &&str| std::fs::read(folder.join(format!("m{number}_{name}.exr"))).ok();
+        let files: Vec<Vec<u8>> = FACES.iter().filter_map(face).collect();
+        let files: [Vec<u8>; 6] = files.try_into().ok()?;
+        match halfvector_ibl::load_faces(files.each_ref().map(|bytes| (bytes.as_slice(), "face.exr"))).ok()?.source {
+            Source::Levels(stored) => stored.levels.into_iter().next(),
+            Source::Equirect(_) => None,
+        }
+    };
+    let cubes: Vec<Cube> = (0..16).map_while(level).collect();
+    let last = cubes.len().checked_sub(1).filter(|last| *last > 0)? as f64;
+    let roughness = |number: usize| 1.0 - (1.0 - number as f64 / last).sqrt();
+    let levels = cubes.into_iter().enumerate().map(|(number, cube)| (cube.size, roughness(number), cube)).collect();
+    Some(Levels { levels, in_map: |[x, y, z]| [z, y, x] })
 }
 
 fn seconds_since(before: Option<f64>, children: bool) -> Option<f64> {
@@ -190,4 +263,33 @@ pub fn write_hdr(environment: &LoadedEnvironment, folder: PathBuf) -> Option<Pat
     let path = folder.join("sky.hdr");
     std::fs::write(&path, bytes).ok()?;
     Some(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::part::ibl::unit;
+
+    /// What is exact has no error, in whatever frame its cube is; another frame has one.
+    #[test]
+    fn levels_are_judged_in_the_frame_of_the_map() {
+        let map = halfvector_ibl::Equirect::from_fn(128, 64, |[x, y, z]| [2.0 + x, 2.0 + y, 2.0 + z].map(|v| v as f32));
+        let truth = Quadrature::new(&map);
+        let levels = |in_map: fn([f64; 3]) -> [f64; 3]| {
+            let cube = |size: usize, roughness: f64| {
+                let texel = |k: usize| {
+                    let place = |i: usize| (2.0 * i as f64 + 1.0) / size as f64 - 1.0;
+                    let dir =
+                        halfvector_ibl::direction_from_face(k / (size * size), place(k % size), place(k / size % size));
+                    truth.prefiltered(in_map(unit(dir)), roughness).map(|x| x as f32)
+                };
+                (size, roughness, Cube { size, texels: (0..6 * size * size).map(texel).collect() })
+            };
+            Levels { levels: vec![cube(8, 0.0), cube(4, 0.5)], in_map }
+        };
+        let exchanged = levels(|[x, y, z]| [z, y, x]);
+        assert!(exchanged.errors(&truth, 24).max() < 1e-5, "{:?}", exchanged.errors(&truth, 24));
+        let wrong = Levels { in_map: |dir| dir, ..exchanged };
+        assert!(wrong.errors(&truth, 24).max() > 0.05);
+    }
 }

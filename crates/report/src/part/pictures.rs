@@ -1,26 +1,33 @@
 //! Whole pictures: what every example looks like on the device and by `--backend cpu`, against the reference; the specialised
 //! shader beside the unspecialised one; the report's own forms beside the defaults.
 //!
+//! *Specialised* is what a scene needs and no more: every number of the material is known when the shader is made. In the
+//! *unspecialised* shader every input of its surfaces that has a number is a uniform, so that every lobe stays in. Both are made as shaders are
+//! exported; the parameters that a document exposes are numbers in one and uniforms in the other.
+//!
 //! The examples are read from the folder `examples` of the project, where the program is run; elsewhere there are no rows.
 
-use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use halfvector_codegen::Fold;
+use halfvector_graph::document::{Document, Parameter, SURFACE_NODE, SocketRef};
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::ShaderOutput;
+use halfvector_graph::node_def::Default as Unconnected;
 use halfvector_ibl::{BakedEnvironment, LoadedEnvironment, bake};
 use halfvector_raster::{RasterOptions, draw};
-use halfvector_reference::metrics::{FlipOptions, difference, flip_hdr};
+use halfvector_reference::metrics::{FlipOptions, flip_hdr};
 use halfvector_reference::{Reference, RenderOptions as ReferenceOptions};
-use halfvector_render::{Cache, RenderOptions, Renderer};
+use halfvector_render::RenderOptions;
 use halfvector_scene::{BuiltinMesh, MeshSource, Picture, Scene, bake_options, needs};
 
 use super::shaders::instructions;
+use super::stations::{Station, shared, stations};
+use crate::noise;
 use crate::timing::median;
 use crate::{Effort, Row};
 
@@ -29,11 +36,14 @@ const FOLDER: &str = "examples";
 /// Samples along a side of a pixel: as many for every drawer.
 const SAMPLES: u32 = 4;
 
-/// Measures the part.
+/// Measures the part. What is not timed is made for several examples at once: truths, bakes, and first pictures, which wait for
+/// compilers. Then each picture is timed while nothing else runs.
 pub fn rows(effort: Effort) -> Vec<Row> {
-    let renderer = Renderer::new().ok();
+    let stations = stations();
     let kept = Kept::default();
-    examples().iter().flat_map(|path| example(path, renderer.as_ref(), &kept, effort).unwrap_or_default()).collect()
+    let prepared = shared(&stations, &examples(), |station, path| Example::prepared(path, station, &kept, effort));
+    let timed = |(station, example): (usize, Option<Example>)| Some(example?.rows(stations[station].as_ref(), effort));
+    prepared.into_iter().filter_map(timed).flatten().collect()
 }
 
 /// The documents of the folder itself, in order of name; those of folders within it are for other ends.
@@ -61,152 +71,286 @@ fn radiance(picture: &Picture) -> Vec<[f64; 3]> {
     picture.pixels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect()
 }
 
-/// What one example has in common with the next, and one picture of it with another.
+/// Environments that are loaded and baked already, by what they are and how: most examples are lit by the same one.
 #[derive(Default)]
 struct Kept {
-    /// Environments that are baked already, by what they are and how: most examples are lit by the same one.
-    bakes: RefCell<HashMap<String, Arc<BakedEnvironment>>>,
-    /// Programs and textures on the device.
-    cache: RefCell<Cache>,
+    loaded: Mutex<HashMap<String, Option<Arc<LoadedEnvironment>>>>,
+    bakes: Mutex<HashMap<String, Arc<BakedEnvironment>>>,
 }
 
-/// An example's scene with what it is lit by.
-struct Example<'k> {
-    scene: Scene,
-    kept: &'k Kept,
-    loaded: Option<LoadedEnvironment>,
-    name: String,
-    size: u32,
-}
-
-impl Example<'_> {
-    fn baked(&self, scene: &Scene) -> Option<Arc<BakedEnvironment>> {
-        let loaded = self.loaded.as_ref()?;
-        let options = bake_options(&scene.environment, &scene.methods, loaded);
-        let mut bakes = self.kept.bakes.borrow_mut();
-        let key = format!("{:?}, {options:?}", scene.environment);
-        Some(bakes.entry(key).or_insert_with(|| Arc::new(bake(loaded, &options))).clone())
+impl Kept {
+    /// The environment of a scene; none where it has none or it cannot be read.
+    fn loaded(&self, scene: &Scene) -> Option<Arc<LoadedEnvironment>> {
+        let mut loaded = self.loaded.lock().unwrap_or_else(PoisonError::into_inner);
+        let read = || scene.environment.load().ok().flatten().map(Arc::new);
+        loaded.entry(format!("{:?}", scene.environment)).or_insert_with(read).clone()
     }
 
-    fn row(&self, method: &str, against: &str) -> Row {
+    fn baked(&self, scene: &Scene) -> Option<Arc<BakedEnvironment>> {
+        let loaded = self.loaded(scene)?;
+        let options = bake_options(&scene.environment, &scene.methods, &loaded);
+        let key = format!("{:?}, {options:?}", scene.environment);
+        let mut bakes = self.bakes.lock().unwrap_or_else(PoisonError::into_inner);
+        Some(bakes.entry(key).or_insert_with(|| Arc::new(bake(&loaded, &options))).clone())
+    }
+}
+
+/// A scene as one row draws it, and the first picture of it on the device.
+struct View {
+    scene: Scene,
+    baked: Option<Arc<BakedEnvironment>>,
+    picture: Option<Picture>,
+}
+
+impl View {
+    fn new(scene: Scene, kept: &Kept, station: Option<&Station>, size: u32) -> View {
+        let baked = kept.baked(&scene);
+        let drawn = station.and_then(|station| station.draw(&scene, baked.as_ref(), &options(size)));
+        View { scene, baked, picture: drawn.map(|(picture, _)| picture) }
+    }
+
+    /// Draws on the device and puts time and instructions into the row: the median of several pictures without what is made
+    /// only once.
+    fn time(&self, station: &Station, size: u32, effort: Effort, row: &mut Row) -> Option<()> {
+        let (mut seconds, mut device): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
+        for _ in 0..effort.pick(3, 9) {
+            let start = Instant::now();
+            let (_, time) = station.draw(&self.scene, self.baked.as_ref(), &options(size))?;
+            seconds.push(start.elapsed().as_secs_f64());
+            device.extend(time);
+        }
+        let shortest = device.iter().copied().fold(f64::INFINITY, f64::min);
+        row.cost_ns = Some(median(seconds) * 1e9);
+        if shortest.is_finite() && shortest > 0.0 {
+            row.gpu_ns = Some(shortest * 1e9 / f64::from(size * size * SAMPLES * SAMPLES));
+            row.gpu_spread = Some(median(device) / shortest - 1.0);
+        }
+        row.gpu = Some(station.name().to_owned());
+        row.instructions = fragment_instructions(&self.scene);
+        Some(())
+    }
+}
+
+fn options(size: u32) -> RenderOptions {
+    RenderOptions {
+        width: size,
+        height: size,
+        samples_per_side: SAMPLES,
+        fold: Fold::Export,
+        ..RenderOptions::default()
+    }
+}
+
+/// The scene with every number of its materials known when a shader is made.
+fn specialised(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.materials.iter_mut().for_each(|material| material.document.parameters.clear());
+    scene
+}
+
+/// The scene with every number that its surfaces take for themselves as a uniform.
+fn unspecialised(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.materials.iter_mut().for_each(|material| expose(&mut material.document));
+    scene
+}
+
+/// Exposes every unlinked number of the surface nodes, beside what the document exposes.
+fn expose(document: &mut Document) {
+    let Some(definition) = Library::standard().get(SURFACE_NODE) else { return };
+    let surfaces: Vec<String> =
+        document.graph.nodes.iter().filter(|(_, node)| node.node == SURFACE_NODE).map(|(id, _)| id.clone()).collect();
+    for surface in surfaces {
+        for input in &definition.inputs {
+            let socket = SocketRef::new(&surface, &input.name);
+            let is_number = matches!(input.default, Unconnected::Value(_));
+            let is_linked = document.graph.links.iter().any(|link| link.to == socket);
+            let is_known = document.parameters.iter().any(|parameter| parameter.socket == socket);
+            if is_number && !is_linked && !is_known {
+                let name = format!("{surface}_{}", input.name);
+                document.parameters.push(Parameter { name, label: None, socket, range: None });
+            }
+        }
+    }
+}
+
+/// An example, its truth, and what is drawn of it.
+struct Example {
+    name: String,
+    size: u32,
+    truth: Vec<[f64; 3]>,
+    noise: Vec<[f64; 3]>,
+    specialised: View,
+    unspecialised: View,
+    /// With the default methods, where the example has others; and with the report's.
+    defaults: Option<View>,
+    report: View,
+}
+
+impl Example {
+    /// None where the example cannot be read or has no truth.
+    fn prepared(path: &Path, station: Option<&Station>, kept: &Kept, effort: Effort) -> Option<Example> {
+        let mut scene = load(path)?;
+        // What the reference has no truth for.
+        set_linear(&mut scene.methods)?;
+        let name = path.file_name()?.to_str()?.trim_end_matches(".json").to_owned();
+        let size = effort.pick(32, 128) as u32;
+        let options = ReferenceOptions { width: size, height: size, shadows: false, ..ReferenceOptions::default() };
+        let loaded = kept.loaded(&scene);
+        let mut reference = Reference::new(&scene, loaded.as_deref(), options).ok()?;
+        reference.add_samples(effort.pick(64, 256) as u64, &|_| ()).ok()?;
+        let picture = reference.picture();
+        drop(reference);
+
+        let view = |scene: Scene| View::new(scene, kept, station, size);
+        let with = |methods: Methods| view(Scene { methods, ..specialised(&scene) });
+        let mut report = Methods::report();
+        set_linear(&mut report)?;
+        Some(Example {
+            name,
+            size,
+            truth: picture.radiance(),
+            noise: picture.standard_error,
+            specialised: view(specialised(&scene)),
+            unspecialised: view(unspecialised(&scene)),
+            defaults: (scene.methods != Methods::default()).then(|| with(Methods::default())),
+            report: with(report),
+        })
+    }
+
+    fn row(&self, method: &str, what: &str, against: &str) -> Row {
         let domain = format!(
-            "{}: the whole picture, {1} x {1} pixels; rms error relative to the mean radiance of {against}",
+            "{}: the whole picture, {1} x {1} pixels{what}; rms error relative to the mean radiance of {against}",
             self.name, self.size
         );
         Row::new("picture", method, &domain)
     }
 
-    /// Draws on the device and puts time and instructions into the row: the median of several pictures without what is made
-    /// only once.
-    fn on_device(
-        &self,
-        renderer: &Renderer,
-        scene: &Scene,
-        (fold, effort): (Fold, Effort),
-        row: &mut Row,
-    ) -> Option<Picture> {
+    /// Draws the example again and again, and holds the pictures against the truth and each other.
+    fn rows(&self, station: Option<&Station>, effort: Effort) -> Vec<Row> {
         let size = self.size;
-        let options =
-            RenderOptions { width: size, height: size, samples_per_side: SAMPLES, fold, ..RenderOptions::default() };
-        let baked = self.baked(scene);
-        let mut cache = self.kept.cache.borrow_mut();
-        let mut draw = || renderer.render_timed(&mut cache, scene, baked.as_ref(), &options).ok();
-        let (picture, _) = draw()?;
-        let (mut seconds, mut device): (Vec<f64>, Option<f64>) = (Vec::new(), None);
-        for _ in 0..effort.pick(3, 9) {
-            let start = Instant::now();
-            let (_, time) = draw()?;
-            seconds.push(start.elapsed().as_secs_f64());
-            device = time.map(|time| device.map_or(time, |known| known.min(time)));
-        }
-        let samples = f64::from(size * size * SAMPLES * SAMPLES);
-        row.cost_ns = Some(median(seconds) * 1e9);
-        row.gpu_ns = device.map(|time| time * 1e9 / samples);
-        row.gpu = Some(renderer.adapter().to_owned());
-        row.instructions = fragment_instructions(scene, fold);
-        Some(picture)
+        let mut rows = Vec::new();
+        let against =
+            "the reference; the noise of the reference is taken off, of the largest error four standard errors";
+        let noise = Some(self.noise.as_slice());
+        let mut timed = |view: &View, mut row: Row, truth: &[[f64; 3]], noise: Option<&[[f64; 3]]>| {
+            let (Some(station), Some(picture)) = (station, &view.picture) else { return };
+            fill(&mut row, &radiance(picture), truth, noise);
+            if view.time(station, size, effort, &mut row).is_some() {
+                rows.push(row);
+            }
+        };
+        let drawn = |view: &View| view.picture.as_ref().map(radiance).unwrap_or_default();
+        timed(&self.specialised, self.row("gpu", "", against), &self.truth, noise);
+        let what = ", every number that its surfaces take a uniform";
+        let row = self.row("gpu, unspecialised", what, "the specialised shader's picture");
+        timed(&self.unspecialised, row, &drawn(&self.specialised), None);
+        let row = self.row("preset report", "", "the picture with the default methods");
+        timed(&self.report, row, &drawn(self.defaults.as_ref().unwrap_or(&self.specialised)), None);
+        rows.extend(self.on_cpu(against));
+        rows
     }
-}
 
-fn example(path: &Path, renderer: Option<&Renderer>, kept: &Kept, effort: Effort) -> Option<Vec<Row>> {
-    let mut scene = load(path)?;
-    // What the reference has no truth for.
-    for term in ["encode", "env_decode"] {
-        let linear = halfvector_graph::method::term(term)?.methods[0].name;
-        scene.methods.set(term, linear).ok()?;
-    }
-    let loaded = scene.environment.load().ok()?;
-    let name = path.file_name()?.to_str()?.trim_end_matches(".json").to_owned();
-    let example = Example { scene, kept, loaded, name, size: effort.pick(32, 128) as u32 };
-    let Example { scene, size, .. } = &example;
-    let baked = example.baked(scene);
-
-    let options = ReferenceOptions { width: *size, height: *size, shadows: false, ..ReferenceOptions::default() };
-    let mut reference = Reference::new(scene, example.loaded.as_ref(), options).ok()?;
-    reference.add_samples(effort.pick(64, 256) as u64, &|_| ()).ok()?;
-    let picture = reference.picture();
-    let (truth, noise) = (picture.radiance(), picture.standard_error);
-    let errors = |row: &mut Row, picture: &Picture| fill(row, &radiance(picture), &truth, Some(&noise));
-
-    let mut rows = Vec::new();
-    let against = "the reference, whose noise is taken off";
-    if let Some(renderer) = renderer {
-        for (method, fold) in [("gpu", Fold::Export), ("gpu, unspecialised", Fold::Live)] {
-            let mut row = example.row(method, against);
-            let picture = example.on_device(renderer, scene, (fold, effort), &mut row);
-            let Some(picture) = picture else { continue };
-            errors(&mut row, &picture);
-            rows.push(row);
-        }
-    }
-    let mut row = example.row("cpu", against);
-    let options = RasterOptions { width: *size, height: *size, samples_per_side: SAMPLES, fold: Fold::Export };
-    let start = Instant::now();
-    if let Ok(picture) = draw::<f32>(scene, baked.as_deref(), &options, |_| ()) {
+    fn on_cpu(&self, against: &str) -> Option<Row> {
+        let View { scene, baked, .. } = &self.specialised;
+        let (width, height) = (self.size, self.size);
+        let options = RasterOptions { width, height, samples_per_side: SAMPLES, fold: Fold::Export };
+        let start = Instant::now();
+        let picture = draw::<f32>(scene, baked.as_deref(), &options, |_| ()).ok()?;
+        let mut row = self.row("cpu", "", against);
         row.cost_ns = Some(start.elapsed().as_secs_f64() * 1e9);
-        row.instructions = fragment_instructions(scene, Fold::Export);
-        errors(&mut row, &picture);
-        rows.push(row);
+        row.instructions = fragment_instructions(scene);
+        fill(&mut row, &radiance(&picture), &self.truth, Some(&self.noise));
+        Some(row)
     }
-    if let Some(renderer) = renderer {
-        rows.extend(preset(&example, renderer, effort));
-    }
-    Some(rows)
 }
 
-/// The report's own forms, as far as a shader shows them in radiance, against the same shader with the defaults.
-fn preset(example: &Example<'_>, renderer: &Renderer, effort: Effort) -> Option<Row> {
-    let draw = |methods: Methods, row: &mut Row| {
-        let scene = Scene { methods, ..example.scene.clone() };
-        example.on_device(renderer, &scene, (Fold::Export, effort), row)
-    };
-    let mut report = Methods::report();
+/// The default methods of what a picture of radiance has no part of.
+fn set_linear(methods: &mut Methods) -> Option<()> {
     for term in ["encode", "env_decode"] {
-        report.set(term, halfvector_graph::method::term(term)?.methods[0].name).ok()?;
+        methods.set(term, halfvector_graph::method::term(term)?.methods[0].name).ok()?;
     }
-    let mut row = example.row("preset report", "the picture with the default methods");
-    let (default, report) = (draw(Methods::default(), &mut Row::default())?, draw(report, &mut row)?);
-    fill(&mut row, &radiance(&report), &radiance(&default), None);
-    Some(row)
+    Some(())
 }
 
 /// The errors of a picture: rms and largest, over the mean radiance of what it is held against, and FLIP.
 fn fill(row: &mut Row, test: &[[f64; 3]], truth: &[[f64; 3]], noise: Option<&[[f64; 3]]>) {
-    let width = truth.len().isqrt();
+    let width = truth.len().isqrt().max(1);
     let mean = truth.iter().flatten().sum::<f64>() / (3 * truth.len().max(1)) as f64;
-    let difference = difference(test, truth, noise);
-    let scale = 1.0 / mean.max(f64::MIN_POSITIVE);
-    (row.error_rms, row.error_max) = (Some(difference.rmse * scale), Some(difference.largest * scale));
-    let worst = |i: usize| (0..3).map(|c| (test[i][c] - truth[i][c]).abs()).fold(0.0, f64::max);
-    let at = (0..truth.len().min(test.len())).max_by(|&a, &b| worst(a).total_cmp(&worst(b)));
-    row.at = at.map(|i| format!("column {}, row {}", i % width.max(1), i / width.max(1)));
+    let scale = |x: f64| x / mean.max(f64::MIN_POSITIVE);
+    let error = noise::error(test, truth, noise);
+    row.error_rms = error.rms.map(scale);
+    row.error_bound = error.bound.map(scale);
+    row.error_max = error.largest.map(scale);
+    row.at = error.at.map(|i| format!("column {}, row {}", i % width, i / width));
+    if error.rms.is_none() {
+        row.note = Some("the noise of the reference hides the error".to_owned());
+    }
     let flip = flip_hdr(truth, test, width, FlipOptions::default());
     row.flip = Some(flip.iter().sum::<f64>() / flip.len().max(1) as f64);
 }
 
-/// Instructions of the longest of a scene's fragment stages.
-fn fragment_instructions(scene: &Scene, fold: Fold) -> Option<u64> {
+/// Instructions of the longest of a scene's fragment stages, as exported.
+fn fragment_instructions(scene: &Scene) -> Option<u64> {
     let needs = needs(scene, ShaderOutput::Radiance);
-    let count = |document| instructions(&halfvector_codegen::shader(document, Library::standard(), &needs, fold).ok()?);
+    let count =
+        |document| instructions(&halfvector_codegen::shader(document, Library::standard(), &needs, Fold::Export).ok()?);
     scene.materials.iter().filter_map(|material| count(&material.document)).max()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(document: Document) -> Scene {
+        Scene::from_material(document, Path::new(""), &MeshSource::Builtin(BuiltinMesh::Sphere)).expect("a scene")
+    }
+
+    /// Whatever a document exposes, its specialised shader is shorter, and has the lobes that the unspecialised one has, too, only
+    /// where it needs them.
+    #[test]
+    fn specialised_shaders_are_the_shorter_ones() {
+        let plain = Document::with_surface("plain");
+        let mut exposed = plain.clone();
+        expose(&mut exposed);
+        assert!(exposed.parameters.len() > 15, "{:?}", exposed.parameters);
+        let counts = [plain, exposed].map(|document| {
+            let scene = scene(document);
+            [specialised(&scene), unspecialised(&scene)].map(|scene| fragment_instructions(&scene).expect("a shader"))
+        });
+        assert_eq!(counts[0], counts[1]);
+        assert!(counts[0][0] * 3 < counts[0][1], "{counts:?}");
+    }
+
+    /// Exposing again adds nothing, and linked inputs are no parameters.
+    #[test]
+    fn each_number_is_exposed_once() {
+        let mut document = Document::with_surface("linked");
+        document
+            .graph
+            .nodes
+            .insert("hills".into(), halfvector_graph::document::Node::new("procedural/gradient_noise_2d"));
+        let link = halfvector_graph::document::Link::new(
+            SocketRef::new("hills", "out"),
+            SocketRef::new("surface", "perceptual_roughness"),
+        );
+        document.graph.links.push(link);
+        expose(&mut document);
+        let count = document.parameters.len();
+        expose(&mut document);
+        assert_eq!(document.parameters.len(), count);
+        assert!(document.parameters.iter().all(|parameter| parameter.socket.socket != "perceptual_roughness"));
+    }
+
+    /// An error that the reference's noise hides is no error of 0.
+    #[test]
+    fn a_hidden_error_is_bounded() {
+        let (truth, noise) = (vec![[1.0; 3]; 64], vec![[0.3; 3]; 64]);
+        let mut row = Row::default();
+        fill(&mut row, &vec![[1.1; 3]; 64], &truth, Some(&noise));
+        assert_eq!((row.error_rms, row.error_max), (None, None));
+        assert!(row.error_bound.is_some_and(|bound| bound > 0.05) && row.note.is_some(), "{row:?}");
+        fill(&mut row, &truth, &truth, None);
+        assert_eq!((row.error_rms, row.error_max, row.error_bound), (Some(0.0), Some(0.0), None));
+    }
 }

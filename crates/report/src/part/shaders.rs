@@ -10,13 +10,15 @@ use halfvector_codegen::target::{export, target};
 use halfvector_codegen::{Fold, Shader};
 use halfvector_graph::document::{Document, Link, Node, SocketRef};
 use halfvector_graph::library::Library;
-use halfvector_graph::method::{TERMS, Term};
+use halfvector_graph::method::TERMS;
 use halfvector_graph::needs::ShaderOutput;
-use halfvector_graph::value::Value;
+use halfvector_graph::value::{ColorSpace, ImageRef, Value};
 use halfvector_ibl::{BakeOptions, BakedEnvironment, bake, studio};
-use halfvector_render::{Cache, RenderOptions, Renderer};
+use halfvector_render::RenderOptions;
 use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, Light, MeshSource, Scene, bake_options, needs};
 
+use super::stations::{Station, shared, station};
+use crate::timing::median;
 use crate::{Effort, Row};
 
 /// Pixels along a side of what is drawn: a square that fills the picture.
@@ -29,58 +31,95 @@ const DOMAIN: &str = "the whole fragment stage of a metal-rough surface with uni
 /// Terms that no fragment shader knows.
 const BAKED: [&str; 2] = ["prefilter", "env_decode"];
 
+/// Terms with the method that is chosen for each.
+type Chosen = &'static [(&'static str, &'static str)];
+
+/// What is measured beside the terms' methods: what shaders have in place of a choice. Term, name of the row, the methods that are
+/// chosen for it.
+const OTHERS: [(&str, &str, Chosen); 8] = [
+    ("coat", "leaning", &[]),
+    ("coat", "mirror", &[("reflection", "mirror")]),
+    ("transmission", "leaning facet, refracted width", &[]),
+    ("transmission", "leaning", &[]),
+    ("thin_film", "at the split sum's mean cosine", &[]),
+    ("height_normals", "moved vertices, their own normals", &[("height_normals", "report")]),
+    ("height_normals", "parallax occlusion", &[]),
+    ("height_normals", "normal map without parallax", &[]),
+];
+
+/// A shader that is measured.
+struct Subject {
+    term: &'static str,
+    method: &'static str,
+    /// What its material has beside the plain one.
+    with: &'static str,
+    scene: Scene,
+}
+
 /// Measures the part.
 pub fn rows(effort: Effort) -> Vec<Row> {
+    let subjects = subjects();
+    let mut rows: Vec<Row> = subjects.iter().map(counted_row).collect();
     // Without a device its columns stay empty.
-    let renderer = Renderer::new().ok();
-    let mut cache = Cache::default();
-    let mut rows = Vec::new();
-    for (term, scenes) in terms() {
-        let first = rows.len();
-        rows.extend(scenes.iter().map(|scene| counted_row(term, scene)));
-        let Some(renderer) = &renderer else { continue };
-        for (row, time) in rows[first..].iter_mut().zip(device_times(renderer, &mut cache, &scenes, effort)) {
-            row.gpu_ns = time.map(|seconds| seconds * 1e9 / f64::from(SIDE * SIDE));
-            row.gpu = time.map(|_| renderer.adapter().to_owned());
-        }
+    let stations = [station()];
+    let Some(name) = stations.iter().flatten().map(Station::name).next() else { return rows };
+    for (row, time) in rows.iter_mut().zip(device_times(&stations, &subjects, effort)) {
+        let Some((shortest, spread)) = time else { continue };
+        row.gpu_ns = Some(shortest * 1e9 / f64::from(SIDE * SIDE));
+        row.gpu_spread = Some(spread);
+        row.gpu = Some(name.to_owned());
     }
     rows
 }
 
 /// The part's rows without the device's times: the same on every machine.
 pub fn counted_rows() -> Vec<Row> {
-    terms().flat_map(|(term, scenes)| scenes.into_iter().map(move |scene| counted_row(term, &scene))).collect()
+    subjects().iter().map(counted_row).collect()
 }
 
-/// The terms that shaders know, each with a scene for each of its methods.
-fn terms() -> impl Iterator<Item = (&'static Term, Vec<Scene>)> {
-    TERMS.iter().filter(|term| !BAKED.contains(&term.name)).map(|term| {
-        let document = document(term).0;
-        let scenes = term.methods.iter().filter_map(|method| {
-            let mut scene = scene(document.clone())?;
-            scene.methods.set(term.name, method.name).ok()?;
-            Some(scene)
-        });
-        (term, scenes.collect())
-    })
+/// A subject for each method of the terms that shaders know, and for each of [`OTHERS`].
+fn subjects() -> Vec<Subject> {
+    let Some(plain) = scene(Document::with_surface("plain")) else { return Vec::new() };
+    let shown = TERMS.iter().filter(|term| !BAKED.contains(&term.name));
+    let methods = shown.flat_map(|term| {
+        term.methods.iter().filter_map(|method| subject(&plain, term.name, method.name, &[(term.name, method.name)]))
+    });
+    methods.chain(OTHERS.iter().filter_map(|&(term, name, chosen)| subject(&plain, term, name, chosen))).collect()
 }
 
-fn counted_row(term: &Term, scene: &Scene) -> Row {
-    let mut row = Row::new(term.name, scene.methods.get(term.name).name, &format!("{DOMAIN}{}", document(term).1));
-    row.instructions = shader(scene).and_then(|shader| instructions(&shader));
+/// The square of a plain material with the material of a method in its place.
+fn subject(plain: &Scene, term: &'static str, method: &'static str, chosen: &[(&str, &str)]) -> Option<Subject> {
+    let (document, with) = document(term, method);
+    let mut scene = plain.clone();
+    // The picture that it may name is no file, and a shader is made without one.
+    scene.materials.first_mut()?.document = document;
+    for (term, method) in chosen {
+        scene.methods.set(term, method).ok()?;
+    }
+    Some(Subject { term, method, with, scene })
+}
+
+fn counted_row(subject: &Subject) -> Row {
+    let mut row = Row::new(subject.term, subject.method, &format!("{DOMAIN}{}", subject.with));
+    row.instructions = shader(&subject.scene).and_then(|shader| instructions(&shader));
     row
+}
+
+/// Whether a row is of the method that a shader's row is of: some rows say more of it behind a comma.
+fn is_of(row: &Row, shader: &Row) -> bool {
+    // A method that is measured on meshes is the same function.
+    let term = if row.term == "normal_frame" { "normal" } else { &row.term };
+    let first = row.method.split(',').next().unwrap_or_default();
+    term == shader.term && (row.method == shader.method || first == shader.method)
 }
 
 /// Puts what was measured of a method's shader into the other rows of the method.
 pub fn share(rows: &mut [Row]) {
     let known: Vec<Row> = rows.iter().filter(|row| row.domain.starts_with(DOMAIN)).cloned().collect();
     for row in rows.iter_mut().filter(|row| row.instructions.is_none()) {
-        let name = row.method.split(',').next().unwrap_or_default();
-        // A method that is measured on meshes is the same function.
-        let term = if row.term == "normal_frame" { "normal" } else { &row.term };
-        if let Some(known) = known.iter().find(|known| known.term == term && known.method == name) {
+        if let Some(known) = known.iter().find(|known| is_of(row, known)) {
             row.instructions = known.instructions;
-            (row.gpu_ns, row.gpu) = (known.gpu_ns, known.gpu.clone());
+            (row.gpu_ns, row.gpu_spread, row.gpu) = (known.gpu_ns, known.gpu_spread, known.gpu.clone());
         }
     }
 }
@@ -90,45 +129,85 @@ pub(crate) fn tells_of(row: &Row, shader: &Row) -> bool {
     shader.domain.starts_with(DOMAIN)
         && !row.domain.starts_with(DOMAIN)
         && row.term == shader.term
-        && row.method.split(',').next() == Some(shader.method.as_str())
+        && is_of(row, shader)
         && row.instructions == shader.instructions
 }
 
 /// A material in which a term has something to do, and what it has beside the plain one.
-fn document(term: &Term) -> (Document, &'static str) {
+fn document(term: &str, method: &str) -> (Document, &'static str) {
     let mut document = Document::with_surface("measured");
-    let Some(surface) = document.graph.nodes.get_mut("surface") else { return (document, "") };
+    let Document { graph, surface: settings, .. } = &mut document;
+    let Some(surface) = graph.nodes.get_mut("surface") else { return (document, "") };
     let mut set = |socket: &str, value: Value| drop(surface.values.insert(socket.into(), value));
     set("base_color", Value::Vec3([0.8, 0.5, 0.3]));
     set("metallic", Value::Number(0.5));
     set("perceptual_roughness", Value::Number(0.4));
-    match term.name {
-        "specular_occlusion" => {
+    let mut link = |from: (&str, &str), to: (&str, &str)| {
+        graph.links.push(Link::new(SocketRef::new(from.0, from.1), SocketRef::new(to.0, to.1)));
+    };
+    let with = match (term, method) {
+        ("specular_occlusion", _) => {
             set("occlusion", Value::Number(0.7));
-            (document, ", with an occlusion")
+            ", with an occlusion"
         }
-        "sheen" => {
+        ("sheen", _) => {
             set("sheen_color", Value::Vec3([0.6, 0.5, 0.4]));
-            (document, ", with a sheen")
+            ", with a sheen"
         }
-        "anisotropy" => {
+        ("anisotropy", _) => {
             set("anisotropy", Value::Number(0.6));
-            (document, ", brushed")
+            ", brushed"
         }
-        "normal" | "normal_decode" | "horizon" => {
+        ("coat", _) => {
+            set("coat_weight", Value::Number(0.8));
+            set("coat_roughness", Value::Number(0.2));
+            ", with a coat"
+        }
+        ("transmission", _) => {
+            set("transmission_weight", Value::Number(0.8));
+            settings.thin_walled = method == "leaning";
+            if settings.thin_walled { ", a thin wall that lets light through" } else { ", that lets light through" }
+        }
+        ("thin_film", _) => {
+            set("thin_film_weight", Value::Number(0.8));
+            ", with a thin film"
+        }
+        ("normal" | "normal_decode" | "horizon", _) => {
             let mut map = Node::new("textures/normal_map");
             map.values.insert("color".into(), Value::Vec3([0.6, 0.45, 0.9]));
-            document.graph.nodes.insert("map".into(), map);
-            document.graph.links.push(Link::new(SocketRef::new("map", "out"), SocketRef::new("surface", "normal")));
-            (document, ", with a mapped normal")
+            graph.nodes.insert("map".into(), map);
+            link(("map", "out"), ("surface", "normal"));
+            ", with a mapped normal"
         }
-        "height_normals" => {
-            document.graph.nodes.insert("hills".into(), Node::new("procedural/gradient_noise_2d"));
-            document.graph.links.push(Link::new(SocketRef::new("hills", "out"), SocketRef::new("surface", "height")));
-            (document, ", displaced by a noise")
+        ("height_normals", "parallax occlusion" | "normal map without parallax") => {
+            let of_picture = |definition: &str| {
+                let (file, color_space) = ("relief.png".to_owned(), ColorSpace::Linear);
+                let (wrap_u, wrap_v, filter) = Default::default();
+                let mut node = Node::new(definition);
+                node.values
+                    .insert("image".into(), Value::Image(ImageRef { file, color_space, wrap_u, wrap_v, filter }));
+                node
+            };
+            graph.nodes.insert("normal".into(), of_picture("textures/height_normal"));
+            graph.nodes.insert("bend".into(), Node::new("textures/normal_map"));
+            link(("normal", "out"), ("bend", "color"));
+            link(("bend", "out"), ("surface", "normal"));
+            if method == "parallax occlusion" {
+                graph.nodes.insert("relief".into(), of_picture("textures/parallax"));
+                link(("relief", "out"), ("normal", "uv"));
+                ", with the normals of a height map, read where the line of sight meets it"
+            } else {
+                ", with the normals of a height map"
+            }
         }
-        _ => (document, ""),
-    }
+        ("height_normals", _) => {
+            graph.nodes.insert("hills".into(), Node::new("procedural/gradient_noise_2d"));
+            link(("hills", "out"), ("surface", "height"));
+            ", displaced by a noise"
+        }
+        _ => "",
+    };
+    (document, with)
 }
 
 /// A square that fills the picture.
@@ -210,9 +289,11 @@ fn counted(words: &[u32]) -> Option<u64> {
     totals.get(place(entry?)?).copied()
 }
 
-/// The device's time of each scene's pass [s], in turns; none for what it refuses, and for all when it has no clock. The
-/// shortest of the turns: a software device shares its cores with whatever else the machine does, which only ever adds.
-fn device_times(renderer: &Renderer, cache: &mut Cache, scenes: &[Scene], effort: Effort) -> Vec<Option<f64>> {
+/// The device's time of each subject's pass [s], and how much longer the turn in the middle took; none for what it refuses, and for
+/// all when it has no clock. The shortest of the turns: a software device shares its cores with whatever else the machine does,
+/// which only ever adds. A turn is one of all shaders, so that those of one subject lie apart; what makes the same shader is drawn
+/// once for all.
+fn device_times<'s>(stations: &[Option<Station>], subjects: &'s [Subject], effort: Effort) -> Vec<Option<(f64, f64)>> {
     let environment = studio();
     let mut baked: Vec<(BakeOptions, Arc<BakedEnvironment>)> = Vec::new();
     let mut light = |scene: &Scene| {
@@ -225,20 +306,33 @@ fn device_times(renderer: &Renderer, cache: &mut Cache, scenes: &[Scene], effort
         baked.push((options, light.clone()));
         light
     };
-    let lights: Vec<Arc<BakedEnvironment>> = scenes.iter().map(&mut light).collect();
+    let mut different: Vec<(String, &'s Scene, Arc<BakedEnvironment>)> = Vec::new();
+    let place = |subject: &'s Subject| {
+        let (text, light) = (shader(&subject.scene)?.wgsl, light(&subject.scene));
+        let known = different.iter().position(|(known, _, lit)| *known == text && Arc::ptr_eq(lit, &light));
+        Some(known.unwrap_or_else(|| {
+            different.push((text, &subject.scene, light));
+            different.len() - 1
+        }))
+    };
+    let places: Vec<Option<usize>> = subjects.iter().map(place).collect();
     let options = RenderOptions { width: SIDE, height: SIDE, samples_per_side: 1, ..RenderOptions::default() };
-    let mut shortest: Vec<Option<f64>> = vec![None; scenes.len()];
-    for round in 0..=effort.pick(5, 31) {
-        for ((scene, light), shortest) in scenes.iter().zip(&lights).zip(&mut shortest) {
-            let drawn = renderer.render_timed(cache, scene, Some(light), &options);
-            if let Ok((_, Some(time))) = drawn
-                && round > 0
-            {
-                *shortest = Some(shortest.map_or(time, |known: f64| known.min(time)));
-            }
+    let drawn = shared(stations, &different, |station, (_, scene, light)| {
+        station.is_some_and(|station| station.draw(scene, Some(light), &options).is_some())
+    });
+    let mut times: Vec<Vec<f64>> = vec![Vec::new(); different.len()];
+    for _ in 0..effort.pick(5, 31) {
+        for (((_, scene, light), &(station, drawn)), times) in different.iter().zip(&drawn).zip(&mut times) {
+            let Some(station) = stations[station].as_ref().filter(|_| drawn) else { continue };
+            times.extend(station.draw(scene, Some(light), &options).and_then(|(_, time)| time));
         }
     }
-    shortest
+    let found = |place: &Option<usize>| {
+        let times = &times[(*place)?];
+        let shortest = times.iter().copied().min_by(f64::total_cmp).filter(|time| *time > 0.0)?;
+        Some((shortest, median(times.clone()) / shortest - 1.0))
+    };
+    places.iter().map(found).collect()
 }
 
 #[cfg(test)]
@@ -267,11 +361,11 @@ mod tests {
     /// The exact Fresnel term is longer than Schlick's, no compensation shorter than one.
     #[test]
     fn dearer_methods_have_more_instructions() {
+        let all = subjects();
         let of = |term: &str, method: &str| {
-            let term = halfvector_graph::method::term(term).expect("a term");
-            let mut scene = scene(document(term).0).expect("a scene");
-            scene.methods.set(term.name, method).expect("a method");
-            instructions(&shader(&scene).expect("a shader")).expect("SPIR-V")
+            let subject =
+                all.iter().find(|subject| subject.term == term && subject.method == method).expect("a subject");
+            instructions(&shader(&subject.scene).expect("a shader")).expect("SPIR-V")
         };
         assert!(of("fresnel", "exact") > of("fresnel", "schlick"));
         assert!(of("compensation", "none") < of("compensation", "turquin"));
@@ -281,15 +375,45 @@ mod tests {
     /// What is measured has the lobe that the term is about: no two methods make the same shader.
     #[test]
     fn methods_of_lobes_show_in_their_shaders() {
-        for name in ["sheen", "anisotropy", "specular_occlusion", "horizon"] {
-            let term = halfvector_graph::method::term(name).expect("a term");
-            let text = |method: &str| {
-                let mut scene = scene(document(term).0).expect("a scene");
-                scene.methods.set(term.name, method).expect("a method");
-                shader(&scene).expect("a shader").wgsl
-            };
-            let texts: std::collections::BTreeSet<String> = term.methods.iter().map(|m| text(m.name)).collect();
-            assert_eq!(texts.len(), term.methods.len(), "{name}");
+        let all = subjects();
+        for name in ["sheen", "anisotropy", "specular_occlusion", "horizon", "coat", "transmission", "thin_film"] {
+            let own: Vec<&Subject> = all.iter().filter(|subject| subject.term == name).collect();
+            let text = |subject: &&Subject| shader(&subject.scene).expect("a shader").wgsl;
+            let texts: std::collections::BTreeSet<String> = own.iter().map(text).collect();
+            assert!(!own.is_empty() && texts.len() == own.len(), "{name}");
         }
+    }
+
+    /// What is in no term's list is measured, too, and every subject makes a shader.
+    #[test]
+    fn every_subject_is_counted() {
+        let rows = counted_rows();
+        let of = |term: &str, method: &str| {
+            let row = rows.iter().find(|row| row.term == term && row.method == method).expect("a row");
+            row.instructions.unwrap_or_else(|| panic!("{term} {method} makes no shader"))
+        };
+        let plain = of("d", "ggx");
+        for (term, method, _) in OTHERS {
+            let moved = method.starts_with("moved");
+            assert!(of(term, method) > plain || moved, "{term} {method}: {} beside {plain}", of(term, method));
+        }
+        assert!(of("height_normals", "parallax occlusion") > of("height_normals", "normal map without parallax"));
+        assert!(rows.iter().all(|row| row.instructions.is_some()));
+    }
+
+    #[test]
+    fn what_a_shader_costs_is_shared_with_every_row_of_its_method() {
+        let shader =
+            |term: &str, method: &str, count| Row { instructions: Some(count), ..Row::new(term, method, DOMAIN) };
+        let mut rows = vec![
+            shader("coat", "leaning", 7),
+            shader("transmission", "leaning facet, refracted width", 8),
+            Row::new("coat", "leaning", "studio"),
+            Row::new("transmission", "leaning facet, refracted width", "studio"),
+            Row::new("transmission", "refracted, width of a reflection", "studio"),
+        ];
+        share(&mut rows);
+        let counts: Vec<_> = rows[2..].iter().map(|row| row.instructions).collect();
+        assert_eq!(counts, [Some(7), Some(8), None]);
     }
 }

@@ -9,7 +9,9 @@ use halfvector_graph::value::Value;
 use halfvector_raster::{RasterOptions, draw};
 use halfvector_scene::light::parse_light;
 use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, MeshSource, Scene};
+use rayon::prelude::*;
 
+use crate::error::Errors;
 use crate::{Effort, Row};
 
 const TERM: &str = "specular_aa";
@@ -34,15 +36,13 @@ const PLACES: [(&str, BuiltinMesh, bool, f32); 3] = [
 
 /// Measures the part: a row for each method on each thing that is drawn, the default first.
 pub fn rows(effort: Effort) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for (name, mesh, bumpy, distance) in PLACES {
-        for roughness in ROUGHNESS {
-            if let Some(scene) = scene(mesh, bumpy, roughness, distance) {
-                rows.extend(methods(scene, &format!("{name}, roughness {roughness}"), effort).unwrap_or_default());
-            }
-        }
-    }
-    rows
+    let cases: Vec<_> = PLACES.into_iter().flat_map(|place| ROUGHNESS.map(|roughness| (place, roughness))).collect();
+    // Nothing is timed, and a picture is drawn by one thread.
+    let rows = cases.into_par_iter().flat_map_iter(|((name, mesh, bumpy, distance), roughness)| {
+        let scene = scene(mesh, bumpy, roughness, distance);
+        scene.and_then(|scene| methods(scene, &format!("{name}, roughness {roughness}"), effort)).unwrap_or_default()
+    });
+    rows.collect()
 }
 
 /// A metal of this roughness in the dark, bumpy or smooth, this far away.
@@ -72,48 +72,45 @@ fn drawn(scene: &Scene, samples_per_side: u32) -> Option<Vec<[f32; 4]>> {
     Some(draw::<f32>(scene, None, &options, |_| {}).ok()?.pixels)
 }
 
-/// What a method's pictures differ by.
-#[derive(Clone, Copy, Default)]
-struct Difference {
-    squares: f64,
-    largest: f64,
-}
-
 /// The errors of each method on covered pixels, over all suns, beside the mean of what many samples give. The metal is grey: one channel
 /// tells of all.
 fn methods(mut scene: Scene, what: &str, effort: Effort) -> Option<Vec<Row>> {
     let (suns, many) = (effort.pick(2, SUNS.len()), effort.pick(8, 16) as u32);
     let names: Vec<&str> = term(TERM)?.methods.iter().map(|method| method.name).collect();
-    let mut differences = vec![Difference::default(); names.len()];
+    // In units of radiance as yet: the mean is known when all is drawn.
+    let mut differences = vec![Vec::<(f64, usize)>::new(); names.len()];
     let (mut sum, mut count) = (0.0, 0.0);
-    for sun in &SUNS[..suns] {
+    for (number, sun) in SUNS[..suns].iter().enumerate() {
         scene.lights = vec![parse_light(&format!("directional:{sun}:3")).ok()?];
         scene.methods.set(TERM, "none").ok()?;
         let truth = drawn(&scene, many)?;
-        let covered = |pixels: &[[f32; 4]]| -> Vec<f64> {
-            let inside = pixels.iter().zip(&truth).filter(|(_, truth)| truth[3] == 1.0);
-            inside.map(|(pixel, _)| f64::from(pixel[0])).collect()
-        };
-        let wanted = covered(&truth);
-        (sum, count) = (sum + wanted.iter().sum::<f64>(), count + wanted.len() as f64);
-        for (name, difference) in names.iter().zip(&mut differences) {
+        let covered: Vec<usize> = (0..truth.len()).filter(|&pixel| truth[pixel][3] == 1.0).collect();
+        let gray = |pixels: &[[f32; 4]], pixel: usize| f64::from(pixels[pixel][0]);
+        sum += covered.iter().map(|&pixel| gray(&truth, pixel)).sum::<f64>();
+        count += covered.len() as f64;
+        for (name, differences) in names.iter().zip(&mut differences) {
             scene.methods.set(TERM, name).ok()?;
-            for (one, wanted) in covered(&drawn(&scene, 1)?).iter().zip(&wanted) {
-                difference.squares += (one - wanted).powi(2);
-                difference.largest = difference.largest.max((one - wanted).abs());
-            }
+            let one = drawn(&scene, 1)?;
+            let difference = |&pixel: &usize| (gray(&one, pixel) - gray(&truth, pixel), number * truth.len() + pixel);
+            differences.extend(covered.iter().map(difference));
         }
     }
-    let (mean, pixels) = (sum / f64::max(count, 1.0), f64::max(count, 1.0));
+    let mean = sum / f64::max(count, 1.0);
     let domain = format!(
         "{what}: a metal under {suns} suns one after the other, {SIZE} x {SIZE} pixels of one sample; relative to the mean radiance of the \
          mean of {} samples a pixel",
         many * many
     );
-    let row = |(name, difference): (&&str, &Difference)| Row {
-        error_rms: Some((difference.squares / pixels).sqrt() / mean),
-        error_max: Some(difference.largest / mean),
-        ..Row::new(TERM, name, &domain)
+    let row = |(name, differences): (&&str, &Vec<(f64, usize)>)| {
+        let mut errors = Errors::default();
+        for &(difference, place) in differences {
+            let (sun, pixel) = (place / (SIZE * SIZE) as usize, place % (SIZE * SIZE) as usize);
+            let (column, line) = (pixel % SIZE as usize, pixel / SIZE as usize);
+            errors.add(difference / mean, || format!("sun at {}, column {column}, row {line}", SUNS[sun]));
+        }
+        let mut row = Row::new(TERM, name, &domain);
+        errors.fill(&mut row);
+        row
     };
     Some(names.iter().zip(&differences).map(row).collect())
 }

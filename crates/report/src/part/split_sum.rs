@@ -3,11 +3,13 @@
 
 use super::ibl::{add, direction, unit};
 use crate::error::Errors;
+use crate::timing::measured;
 use crate::{Effort, Row};
 use halfvector_brdf::ggx::{d_ggx, v_smith_ggx_correlated};
+use halfvector_ibl::environment::{dfg_from_table, environment_sample_hermite, lod_geometric};
 use halfvector_ibl::{
-    Equirect, LoadedEnvironment, Quadrature, Source, Visibility, dfg, direction_from_equirect,
-    equirect_texel_solid_angle,
+    BakedEnvironment, DFG_SIZE, Equirect, LoadedEnvironment, Quadrature, Source, Visibility, dfg, dfg_table,
+    direction_from_equirect, equirect_texel_solid_angle,
 };
 use rayon::prelude::*;
 
@@ -21,13 +23,15 @@ const F0: [[f64; 3]; 2] = [[0.04; 3], [1.0, 0.71, 0.29]];
 const ROWS: usize = 128;
 const PIECES: usize = 2;
 
-/// One row for each n.v and roughness, over directions of the normal and both reflectances: prefiltered light times
-/// (F0 a + b), both without numerical error, against the integral of light times the lobe. Nothing is timed.
-pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment) -> Vec<Row> {
+/// Two rows for each n.v and roughness, over directions of the normal and both reflectances: prefiltered light times
+/// (F0 a + b), both without numerical error, against the integral of light times the lobe, which is the other method. What each
+/// takes is the same for all of them: the split sum reads `baked` and the table of albedos, the integral the map.
+pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment, baked: &BakedEnvironment) -> Vec<Row> {
     let Source::Equirect(map) = &environment.source else { return Vec::new() };
     // Both sides see this map: how coarse it is changes what is lit, not what the model loses.
     let map = map.area_resampled(2 * ROWS, ROWS);
     let (truth, cells) = (Quadrature::new(&map), cells(&map));
+    let costs = costs(effort, baked, &cells);
     let row = |(n_dot_v, roughness): (f64, f64)| {
         let domain = format!(
             "{name}: the split sum's model error, n.v {n_dot_v}, roughness {roughness}; exact levels times exact \
@@ -48,12 +52,42 @@ pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment) 
                 add(&mut errors, split, exact, mean, || format!("normal {n:.3?}, F0 {f0:?}"));
             }
         }
-        let mut row = Row::new("split_sum", "model", &domain);
-        errors.fill(&mut row);
-        row
+        let (mut split, mut whole) = (costs[0].clone(), costs[1].clone());
+        (split.domain, whole.domain) = (domain.clone(), domain);
+        errors.fill(&mut split);
+        (whole.error_rms, whole.error_max) = (Some(0.0), Some(0.0));
+        [split, whole]
     };
     let cases: Vec<(f64, f64)> = N_DOT_V.iter().flat_map(|&v| ROUGHNESS.map(|roughness| (v, roughness))).collect();
-    cases.into_par_iter().map(row).collect()
+    cases.into_par_iter().flat_map_iter(row).collect()
+}
+
+/// A row of each way with its time and memory: one reflection on one core.
+fn costs(effort: Effort, baked: &BakedEnvironment, cells: &[[f64; 6]]) -> [Row; 2] {
+    const READS: usize = 64;
+    let table = dfg_table(DFG_SIZE);
+    let levels = baked.radiance.len() as f64;
+    let n = [0.0, 1.0, 0.0];
+    let mut split = |_: usize| {
+        let read = |k: usize| {
+            let (roughness, n_dot_v) = (ROUGHNESS[k % 4], N_DOT_V[k / 4 % 4]);
+            let [a, b] = dfg_from_table(&table, n_dot_v, roughness);
+            let lod = lod_geometric(roughness, levels);
+            let [r, ..] = environment_sample_hermite(&baked.radiance, &baked.slope, direction(k), lod);
+            f64::from(r * (a + b))
+        };
+        (0..READS).map(read).sum()
+    };
+    let mut whole = |_: usize| reflection(cells, n, view(n, N_DOT_V[2]), 0.16)[0][0];
+    let times = measured(&mut [&mut split, &mut whole], effort.pick(5, 20));
+    let mut rows = ["model", "full integration"].map(|method| Row::new("split_sum", method, ""));
+    rows[0].take_time(times[0], READS);
+    rows[1].take_time(times[1], 1);
+    let texels: usize = baked.radiance.iter().map(|cube| cube.texels.len()).sum();
+    // Texels of four numbers of 16 bits, and the table's of two.
+    rows[0].bytes = Some((8 * texels + 4 * DFG_SIZE * DFG_SIZE) as u64);
+    rows[1].bytes = Some((6 * cells.len() / (PIECES * PIECES)) as u64);
+    rows
 }
 
 /// The pieces of a map's texels: direction x, y, z, and radiance times solid angle.
@@ -107,11 +141,14 @@ fn reflection(cells: &[[f64; 6]], n: [f64; 3], v: [f64; 3], alpha: f64) -> [[f64
 #[cfg(test)]
 mod tests {
     use super::*;
+    use halfvector_ibl::BakeOptions;
 
     /// Under an even sky the split sum is exact: what the rows show is the model's error, not that of their sums.
     #[test]
     fn white_has_no_error() {
-        let Row { error_max, .. } = rows(Effort::Quick, "white", &halfvector_ibl::white())
+        let white = halfvector_ibl::white();
+        let baked = halfvector_ibl::bake(&white, &BakeOptions { size: 16, ..BakeOptions::default() });
+        let Row { error_max, .. } = rows(Effort::Quick, "white", &white, &baked)
             .into_iter()
             .max_by(|a, b| a.error_max.partial_cmp(&b.error_max).expect("numbers"))
             .expect("a row");

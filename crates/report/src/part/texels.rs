@@ -184,6 +184,10 @@ fn heights(count: usize) -> Vec<Row> {
         .map(|(name, errors)| {
             let mut row = Row::new("height_normals", name, DOMAIN);
             errors.fill(&mut row);
+            if matches!(*name, "report" | "derived" | "moved vertices, their own normals") {
+                let what = "its cost is that of the fragment stage: moving the vertices of the mesh is not in it";
+                row.note = Some(what.to_owned());
+            }
             row
         })
         .collect()

@@ -1,0 +1,33 @@
+//! `halfvector report`, interrupted.
+
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Command, Stdio};
+
+use super::Folder;
+
+/// A Ctrl-C ends the command with a line that says which parts are kept, and where; their files are whole.
+#[test]
+fn an_interrupt_says_what_is_kept() {
+    let folder = Folder::new();
+    let mut running = Command::new(env!("CARGO_BIN_EXE_halfvector"))
+        .args(["report", "--quick", "--only", "mips", "--only", "ibl", "-o"])
+        .arg(folder.path("out"))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let mut said = BufReader::new(running.stderr.take().expect("piped"));
+    let mut line = String::new();
+    said.read_line(&mut line).expect("a line");
+    assert!(line.starts_with("mips: "), "{line}");
+    // The part of light goes on for many seconds.
+    let sent = Command::new("kill").args(["-INT", &running.id().to_string()]).status();
+    assert!(sent.is_ok_and(|status| status.success()), "the signal is sent");
+    let mut rest = String::new();
+    said.read_to_string(&mut rest).expect("text");
+    let code = running.wait().expect("it ends").code();
+    assert_eq!(code, Some(130), "{rest}");
+    assert!(rest.contains("interrupted: what is measured is kept in") && rest.contains(": mips ("), "{rest}");
+    let report = std::fs::read_to_string(folder.path("out/report.json")).expect("a report");
+    assert!(report.contains("\"parts\":[\"mips\"]"), "{report}");
+}
