@@ -3,7 +3,8 @@
 
 use std::fmt;
 
-use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use halfvector_graph::library::CAPABILITIES;
+use naga::valid::{ModuleInfo, ValidationFlags, Validator};
 
 use crate::Shader;
 use crate::emit::text::Origin;
@@ -78,7 +79,7 @@ pub fn validate(shader: &Shader) -> Result<Valid, ValidationError> {
 
 /// Validates a module; an error comes with the bytes it is about, the most precise last.
 pub(crate) fn validate_module(module: &naga::Module) -> Result<ModuleInfo, (String, Vec<usize>)> {
-    Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module).map_err(|e| {
+    Validator::new(ValidationFlags::all(), CAPABILITIES).validate(module).map_err(|e| {
         let offsets = e.spans().filter_map(|(span, _)| span.to_range()).map(|range| range.start).collect();
         let mut message = e.as_inner().to_string();
         let mut source = std::error::Error::source(e.as_inner());

@@ -22,6 +22,7 @@ use halfvector_shaders::{Item, ItemKind, TokenKind, tokens};
 use crate::document::{Document, Group};
 use crate::node_def::NodeDef;
 use crate::value::Type;
+pub use signature::CAPABILITIES;
 use signature::Signatures;
 
 /// The nodes that a graph can be made of. Cloning is cheap.

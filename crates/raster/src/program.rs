@@ -1,8 +1,9 @@
 //! A shader that is ready to run: both stages, and which scalar of one stage is which of the other.
 
 use halfvector_codegen::{Shader, place_of};
+use halfvector_graph::library::CAPABILITIES;
 use halfvector_interp::{Entry, Program, RunError, Slot};
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::valid::{ValidationFlags, Validator};
 use naga::{Binding, BuiltIn};
 
 use crate::error::RasterError;
@@ -30,7 +31,7 @@ pub(crate) struct Stages {
 /// Compiles entry points of a text. The error says what the interpreter does not do, or naga's words.
 pub(crate) fn compile<const N: usize>(wgsl: &str, stages: [&str; N]) -> Result<[Program; N], String> {
     let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| error.message().to_owned())?;
-    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+    let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
         .validate(&module)
         .map_err(|error| error.as_inner().to_string())?;
     let mut programs = Vec::with_capacity(N);

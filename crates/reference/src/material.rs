@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3, DVec4};
 use halfvector_codegen::input_value;
 use halfvector_codegen::reflection::{Resource, SamplerSource, TextureSource, UniformSource, UniformType};
 use halfvector_graph::document::SurfaceSettings;
-use halfvector_graph::library::Library;
+use halfvector_graph::library::{CAPABILITIES, Library};
 use halfvector_graph::method::Methods;
 use halfvector_interp::{
     Column, Derivatives, Entry, Limits, Machine, OutputColumn, Outputs, Program, Resources, Texture,
@@ -218,7 +218,7 @@ impl Material {
         let shader = halfvector_codegen::material(document, Library::standard(), methods)
             .map_err(|error| wrong(error.to_string()))?;
         let module = naga::front::wgsl::parse_str(&shader.wgsl).map_err(|error| wrong(error.to_string()))?;
-        let info = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())
+        let info = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), CAPABILITIES)
             .validate(&module)
             .map_err(|error| wrong(error.as_inner().to_string()))?;
         let program =

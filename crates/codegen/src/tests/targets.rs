@@ -33,7 +33,13 @@ fn cases() -> Vec<(&'static str, Document, Needs)> {
     let parameters = ["metallic", "base_color", "coat_weight", "coat_color", "emission", "ior"]
         .map(|name| format!(r#"{{"name": "{name}", "socket": "surface.{name}"}}"#));
     let exposed = with_parameters("", "", "", &parameters.join(", "));
+    // Packing of f16 is part of every WGSL.
+    let mut packs =
+        material("", r#""n": {"node": "custom/f"}"#, r#"{"from": "n.out", "to": "surface.perceptual_roughness"}"#);
+    let text = "/// F\n///\n/// Packs.\n/// @node custom/f\n/// - uv: where [context uv0]\nfn f(uv: vec2f) -> f32 {\n    return unpack2x16float(pack2x16float(uv)).x + quantizeToF16(uv.y);\n}\n";
+    packs.functions.insert("f".into(), text.into());
     vec![
+        ("packs", packs, sun()),
         ("exposed", exposed.clone(), sun()),
         ("twenty", exposed, twenty),
         ("plain", material("", "", ""), sun()),

@@ -119,6 +119,10 @@ impl Signatures {
 /// A place in the joined text and what is wrong there.
 type ParseError = (usize, String);
 
+/// What shaders may use of WGSL beyond the least that naga allows: the built-ins that pack f16 into words, which every device
+/// of WebGPU has.
+pub const CAPABILITIES: naga::valid::Capabilities = naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32;
+
 /// Parses and validates a text by itself, on a large stack, and reads the signatures of its functions, none of which is generic. The
 /// text's nesting is bounded before.
 ///
@@ -132,8 +136,7 @@ pub(super) fn judge(text: &str) -> Result<Signatures, (usize, String)> {
             let at = module.types.get_span(handle).to_range().map_or(0, |range| range.start);
             return Err((at, "a value of this type is too large".into()));
         }
-        let mut validator =
-            naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+        let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), CAPABILITIES);
         validator.validate(&module).map_err(|e| {
             let at = e.spans().filter_map(|(span, _)| span.to_range()).map(|range| range.start).last().unwrap_or(0);
             let mut message = e.as_inner().to_string();
