@@ -143,7 +143,7 @@ fn wrong_usage_ends_with_2_before_any_work() {
     for (option, value, words) in [
         ("--size", "0x4", "WIDTHxHEIGHT"),
         ("--size", "100000x100000", "smaller size"),
-        ("--samples", "0", "1..=4096"),
+        ("--samples", "0", "1..=1048576"),
         ("--samples", "many", "invalid digit"),
         ("--backend", "abacus", "gpu, cpu and reference"),
         ("--light", "candle:1", "candle"),
