@@ -553,7 +553,11 @@ fn what_f32_gets_wrong_is_found_and_named() {
     assert_eq!(run.stdout, "no problems\n");
     folder.run(&["check", "wrong.material.json"]).ends(0);
     let run = folder.run(&["check", "--stability", "wrong.material.json"]).ends(3);
-    assert!(run.stdout.contains("`Back again` (culprit.out)"), "{}", run.stdout);
+    assert!(run.stdout.starts_with("wrong.material.json: unstable in f32:\n  node "), "{}", run.stdout);
+    assert!(run.stdout.contains("\n  `Back again`  culprit.out  "), "{}", run.stdout);
+    // Only what the node reads.
+    let place = run.stdout.lines().find(|line| line.starts_with("    at ")).unwrap_or_default();
+    assert!(place.starts_with("    at uv0.x = ") && !place.contains(','), "{}", run.stdout);
     let run = folder.run(&["check", "--stability", "--format", "json", "wrong.material.json"]).ends(3);
     let json = run.json();
     assert_eq!(json["unstable"][0]["node"], "culprit");
@@ -565,6 +569,6 @@ fn what_f32_gets_wrong_is_found_and_named() {
     assert!(half["node"] == "far" && half["f16"].is_null() && half["not_finite"].as_u64() > Some(0), "{json}");
     assert!(json["f16"]["edges"].is_array());
     let run = folder.run(&["check", "--stability", "--f16", "wrong.material.json"]).ends(3);
-    assert!(run.stdout.contains("f32 gives") && run.stdout.contains("f16 gives"), "{}", run.stdout);
+    assert!(run.stdout.contains("unstable in f32") && run.stdout.contains("unstable in f16"), "{}", run.stdout);
     folder.run(&["check", "--f16", "wrong.material.json"]).ends(2);
 }

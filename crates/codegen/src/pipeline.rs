@@ -103,6 +103,19 @@ fn whole(
 /// # Errors
 /// As for [`shader()`].
 pub fn material(document: &Document, library: &Library, methods: &Methods) -> Result<Shader, CodegenError> {
+    alone(document, library, methods, Fold::Export)
+}
+
+/// The same with all numbers open, as in [`Fold::Live`]: nothing is computed beforehand. For those who ask how a constant
+/// came about.
+///
+/// # Errors
+/// As for [`shader()`].
+pub fn material_live(document: &Document, library: &Library, methods: &Methods) -> Result<Shader, CodegenError> {
+    alone(document, library, methods, Fold::Live)
+}
+
+fn alone(document: &Document, library: &Library, methods: &Methods, fold: Fold) -> Result<Shader, CodegenError> {
     // check
     no_errors(check(document, library))?;
     // take groups apart
@@ -112,7 +125,7 @@ pub fn material(document: &Document, library: &Library, methods: &Methods) -> Re
     // resolve types
     let types = types::resolve(document, library)?;
     // lower
-    let mut program = lower_material(document, &types, methods)?;
+    let mut program = lower_material(document, &types, methods, fold)?;
     // fold constants
     let faults = fold::fold(&mut program, index);
     no_faults(document, library, &program, &faults)?;

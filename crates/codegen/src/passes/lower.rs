@@ -305,10 +305,11 @@ pub(crate) fn lower_material<'a>(
     document: &'a Document,
     types: &Types<'a>,
     methods: &Methods,
+    fold: Fold,
 ) -> Result<Program<'a>, CodegenError> {
     let mut table = Table::default();
     let mut stage = Stage::default();
-    let mut lowering = Lowering::new(document, types, methods, Fold::Export, StageKind::Fragment);
+    let mut lowering = Lowering::new(document, types, methods, fold, StageKind::Fragment);
     // Making each input makes all nodes that the surface reads.
     for input in &types.nodes[types.surface].def.inputs {
         lowering.input(&mut stage.arena, &mut table, types.surface, &input.name)?;
