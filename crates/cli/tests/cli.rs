@@ -551,6 +551,15 @@ fn what_f32_gets_wrong_is_found_and_named() {
     std::fs::copy(examples.join("cancellation.material.json"), folder.path("wrong.material.json")).expect("copied");
     let run = folder.run(&["check", "--stability", "plain.material.json"]).ends(0);
     assert_eq!(run.stdout, "no problems\n");
+    let steps = r#"{"halfvector": 1, "name": "Steps", "nodes": {"checker": {"node": "procedural/checker"}, "surface": {"node": "surface/surface"}},
+        "links": [{"from": "checker.out", "to": "surface.metallic"}]}"#;
+    std::fs::write(folder.path("steps.material.json"), steps).expect("written");
+    let run = folder.run(&["check", "--stability", "steps.material.json"]).ends(0);
+    assert!(
+        run.stdout.starts_with("steps.material.json: edges") && run.stdout.ends_with("no problems\n"),
+        "{}",
+        run.stdout
+    );
     folder.run(&["check", "wrong.material.json"]).ends(0);
     let run = folder.run(&["check", "--stability", "wrong.material.json"]).ends(3);
     assert!(run.stdout.starts_with("wrong.material.json: unstable in f32:\n  node "), "{}", run.stdout);
@@ -571,4 +580,12 @@ fn what_f32_gets_wrong_is_found_and_named() {
     let run = folder.run(&["check", "--stability", "--f16", "wrong.material.json"]).ends(3);
     assert!(run.stdout.contains("unstable in f32") && run.stdout.contains("unstable in f16"), "{}", run.stdout);
     folder.run(&["check", "--f16", "wrong.material.json"]).ends(2);
+    // A message of a file that cannot be read is one line.
+    std::fs::write(folder.path("cut.material.json"), "{\n").expect("written");
+    let json = folder.run(&["check", "--format", "json", "cut.material.json"]).ends(1).json();
+    let message = json["problems"][0]["message"].as_str().unwrap_or_default();
+    assert!(message.contains("line 2") && !message.contains('\n'), "{json}");
+    let run = folder.run(&["check", "--stability", "--format", "json", "steps.material.json"]).ends(0);
+    let edge = &run.json()["edges"][0];
+    assert!(edge["node"] == "checker" && edge["from"] != edge["to"] && edge["input"].is_object(), "{edge}");
 }

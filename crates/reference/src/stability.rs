@@ -46,8 +46,8 @@ pub struct Finding {
     pub narrow: f64,
     /// What f64 gives there.
     pub exact: f64,
-    /// Where that is: those contexts (`uv0.x`) and exposed parameters by name that the output depends on; empty where its
-    /// inputs are constants.
+    /// Where that is: those contexts (`uv0.x`) and exposed parameters by name that the output depends on; empty where it
+    /// depends on none.
     pub input: Vec<(String, f64)>,
     /// Points at which it is no number, in the narrow arithmetic or in f64.
     pub nan: usize,

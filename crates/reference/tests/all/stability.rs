@@ -6,7 +6,7 @@ use halfvector_reference::{Precision, Stability, stability};
 use halfvector_scene::{BuiltinMesh, MeshSource, Scene};
 
 /// Fewest planted cases.
-const CASES: usize = 10;
+const CASES: usize = 16;
 
 fn materials(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../").join(folder);
@@ -41,15 +41,42 @@ fn judged_text(text: &str, precision: Precision) -> Stability {
     stability(&scene, 0, precision).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-/// Judges a function of `uv`, as the node `f`.
-fn judged_function(body: &str) -> Stability {
+/// Sockets of the surface for a number each.
+const SOCKETS: [&str; 10] = [
+    "metallic",
+    "perceptual_roughness",
+    "ior",
+    "specular",
+    "occlusion",
+    "height",
+    "coat_weight",
+    "coat_roughness",
+    "coat_ior",
+    "sheen_roughness",
+];
+
+/// Judges functions of `uv`, at most as many as there are sockets, as the nodes `f0`, `f1`, ...
+fn judged_functions(bodies: &[&str]) -> Stability {
+    let (mut nodes, mut links, mut functions) = (String::new(), Vec::new(), Vec::new());
+    for (number, (body, socket)) in bodies.iter().zip(SOCKETS).enumerate() {
+        nodes += &format!(r#""f{number}": {{"node": "custom/f{number}"}}, "#);
+        links.push(format!(r#"{{"from": "f{number}.out", "to": "surface.{socket}"}}"#));
+        functions.push(format!(
+            r#""f{number}": ["/// F", "///", "/// Test.", "/// @node custom/f{number}", "/// - uv: where [context uv0]",
+            "/// - return: y", "fn f{number}(uv: vec2f) -> f32 {{", "{body}", "}}"]"#
+        ));
+    }
+    let (links, functions) = (links.join(", "), functions.join(", "));
     let text = format!(
-        r#"{{"halfvector": 1, "name": "F", "nodes": {{"f": {{"node": "custom/f"}}, "surface": {{"node": "surface/surface"}}}},
-        "links": [{{"from": "f.out", "to": "surface.metallic"}}],
-        "functions": {{"f": ["/// F", "///", "/// Test.", "/// @node custom/f", "/// - uv: where [context uv0]",
-            "/// - return: y", "fn f(uv: vec2f) -> f32 {{", "{body}", "}}"]}}}}"#
+        r#"{{"halfvector": 1, "name": "F", "nodes": {{{nodes}"surface": {{"node": "surface/surface"}}}},
+        "links": [{links}], "functions": {{{functions}}}}}"#
     );
     judged_text(&text, Precision::Single)
+}
+
+/// Judges a function of `uv`, as the node `f0`.
+fn judged_function(body: &str) -> Stability {
+    judged_functions(&[body])
 }
 
 /// A material whose metallic is the output of the chain of nodes `nodes`, fed by uv0.x from `parts.x`.
@@ -123,11 +150,15 @@ fn no_number_from_finite_inputs_is_unstable_in_any_arithmetic() {
         "normalize(uv - 0.5).x",
     ];
     let infinite = ["1.0 / (uv.x - 0.5)", "log(abs(uv.x - 0.25))", "1.0 / (uv.x - uv.x)", "inverseSqrt(uv.x * 0.0)"];
-    for (body, is_nan) in nan.iter().map(|body| (body, true)).chain(infinite.iter().map(|body| (body, false))) {
-        let judged = judged_function(&format!("return {body};"));
-        let [found] = judged.unstable.as_slice() else { panic!("{body}: {judged:?}") };
-        assert!(!found.exact.is_finite() && !found.narrow.is_finite() && found.error().is_infinite(), "{found:?}");
-        assert!(if is_nan { found.nan > 0 } else { found.infinite > 0 }, "{found:?}");
+    for (bodies, is_nan) in [(&nan[..], true), (&infinite[..], false)] {
+        let bodies: Vec<String> = bodies.iter().map(|body| format!("return {body};")).collect();
+        let judged = judged_functions(&bodies.iter().map(String::as_str).collect::<Vec<_>>());
+        let nodes: Vec<String> = (0..bodies.len()).map(|number| format!("f{number}")).collect();
+        assert_eq!(unstable_nodes(&judged), nodes, "{bodies:?}: {judged:?}");
+        for found in &judged.unstable {
+            assert!(!found.exact.is_finite() && !found.narrow.is_finite() && found.error().is_infinite(), "{found:?}");
+            assert!(if is_nan { found.nan > 0 } else { found.infinite > 0 }, "{found:?}");
+        }
     }
 }
 
@@ -210,6 +241,15 @@ fn constants_are_judged() {
     let [found] = judged.unstable.as_slice() else { panic!("{judged:?}") };
     assert_eq!((found.node.as_str(), found.narrow, found.input.len()), ("back", 0.0, 0));
     assert!((found.exact - 0.3).abs() < 1e-6, "{found:?}");
+    let grouped = format!(
+        r#"{{"halfvector": 1, "name": "Group",
+        "nodes": {{"odd": {{"node": "group/odd"}}, "surface": {{"node": "surface/surface"}}}},
+        "links": [{{"from": "odd.out", "to": "surface.metallic"}}],
+        "groups": {{"odd": {{"inputs": [], "outputs": [{{"name": "out", "type": "f32"}}],
+            "nodes": {{{nodes}, "output": {{"node": "group/output"}}}},
+            "links": [{link}, {{"from": "back.out", "to": "output.out"}}]}}}}}}"#
+    );
+    assert_eq!(unstable_nodes(&judged_text(&grouped, Precision::Single)), ["odd/back"]);
     // Well-conditioned constants, and what is left of equal ones.
     for values in [r#"{"a": 0.3, "b": 0.4}"#, r#"{"a": 0.1, "b": -0.1}"#] {
         let text = plain.replace(r#"{"a": 0.3, "b": 10000000}"#, values).replace(r#"{"b": 10000000}"#, r#"{"b": 0.7}"#);
@@ -244,15 +284,15 @@ fn jumps_are_looked_for() {
         let judged = judged_text(&text, Precision::Single);
         assert_eq!((edge_nodes(&judged), unstable_nodes(&judged)), (vec!["f"], vec![]), "{pattern}");
     }
-    for body in [
+    let bodies = [
         "return step(0.37, uv.x);",
         "return fract(uv.x * 13.0);",
         "return uv.x % 0.3;",
         "return atan2(uv.y - 0.5, uv.x - 0.5);",
-    ] {
-        let judged = judged_function(body);
-        assert_eq!((edge_nodes(&judged), unstable_nodes(&judged)), (vec!["f"], vec![]), "{body}");
-        let edge = &judged.edges[0];
+    ];
+    let judged = judged_functions(&bodies);
+    assert_eq!((edge_nodes(&judged), unstable_nodes(&judged)), (vec!["f0", "f1", "f2", "f3"], vec![]));
+    for edge in &judged.edges {
         assert!((edge.from - edge.to).abs() > 0.2 && !edge.input.is_empty(), "{edge:?}");
     }
 }
@@ -272,29 +312,30 @@ fn a_jump_of_directions_is_found() {
 /// What f32 computes well is neither unstable nor an edge, however steep or near a pole it may be.
 #[test]
 fn well_conditioned_functions_are_quiet() {
-    for body in [
-        "uv.x * uv.x * 3.0 - uv.y",
-        "sin(uv.x * 6.0) * 0.5 + 0.5",
-        "1.0 / (uv.x * uv.x + 0.1)",
-        "exp(-uv.x * uv.x)",
-        "pow(abs(uv.x), 2.2)",
-        "acos(clamp(uv.x, -1.0, 1.0))",
-        "smoothstep(0.2, 0.8, uv.x)",
-        "abs(fract(uv.x * 10.0) - 0.5)",
-        "sqrt(abs(uv.x))",
-        "sign(uv.x) * pow(abs(uv.x), 1.0 / 3.0)",
-        "log(abs(uv.x) + 0.01)",
-        "length(uv - 0.5)",
-        "tanh(uv.x * 3.0)",
-        "smoothstep(0.0, 0.01, length(uv - 0.5) - 0.3)",
-        "sqrt(max(1.0 - dot(uv, uv), 0.0))",
-        "inverseSqrt(dot(uv, uv) + 1e-4)",
-        "log2(abs(uv.x) + 1e-6)",
-        "sin(length(uv) * 300.0)",
-        "pow(abs(sin(uv.x * 20.0)), 50.0)",
-    ] {
-        let judged = judged_function(&format!("return {body};"));
-        assert_eq!((edge_nodes(&judged), unstable_nodes(&judged)), (vec![], vec![]), "{body}: {judged:?}");
+    let bodies = [
+        "return uv.x * uv.x * 3.0 - uv.y;",
+        "return sin(uv.x * 6.0) * 0.5 + 0.5;",
+        "return 1.0 / (uv.x * uv.x + 0.1);",
+        "return exp(-uv.x * uv.x);",
+        "return pow(abs(uv.x), 2.2);",
+        "return acos(clamp(uv.x, -1.0, 1.0));",
+        "return smoothstep(0.2, 0.8, uv.x);",
+        "return abs(fract(uv.x * 10.0) - 0.5);",
+        "return sqrt(abs(uv.x));",
+        "return sign(uv.x) * pow(abs(uv.x), 1.0 / 3.0);",
+        "return log(abs(uv.x) + 0.01);",
+        "return length(uv - 0.5);",
+        "return tanh(uv.x * 3.0);",
+        "return smoothstep(0.0, 0.01, length(uv - 0.5) - 0.3);",
+        "return sqrt(max(1.0 - dot(uv, uv), 0.0));",
+        "return inverseSqrt(dot(uv, uv) + 1e-4);",
+        "return log2(abs(uv.x) + 1e-6);",
+        "return sin(length(uv) * 300.0);",
+        "return pow(abs(sin(uv.x * 20.0)), 50.0);",
+    ];
+    for bodies in bodies.chunks(SOCKETS.len()) {
+        let judged = judged_functions(bodies);
+        assert_eq!((edge_nodes(&judged), unstable_nodes(&judged)), (vec![], vec![]), "{bodies:?}: {judged:?}");
     }
     let judged = judged_function("return tan(uv.x * 3.0);");
     assert_eq!(unstable_nodes(&judged), Vec::<&str>::new(), "{judged:?}");
