@@ -49,6 +49,21 @@ impl Failure {
         self.remedy = Some(remedy.into());
         self
     }
+
+    /// The same on one line, for messages that are not shown on a terminal.
+    pub(crate) fn line(&self) -> String {
+        let mut line = self.what.clone();
+        if let Some(place) = &self.place {
+            line += &format!(" ({place})");
+        }
+        if !self.why.is_empty() {
+            line += &format!(": {}", self.why.join("; "));
+        }
+        if let Some(remedy) = &self.remedy {
+            line += &format!("; try: {remedy}");
+        }
+        line.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
 }
 
 impl fmt::Display for Failure {
@@ -79,6 +94,7 @@ mod tests {
             failure.to_string(),
             "error: no picture\n  where: a.png\n  why:   one\n         two\n  try:   another"
         );
+        assert_eq!(failure.line(), "no picture (a.png): one two; try: another");
         assert_eq!((failure.code, Failure::usage("x").code), (1, 2));
     }
 }

@@ -607,9 +607,22 @@ fn what_f32_gets_wrong_is_found_and_named() {
     std::fs::copy(examples.join("cancellation.material.json"), folder.path("wrong.material.json")).expect("copied");
     let run = folder.run(&["check", "--stability", "plain.material.json"]).ends(0);
     assert_eq!(run.stdout, "no problems\n");
+    let steps = r#"{"halfvector": 1, "name": "Steps", "nodes": {"checker": {"node": "procedural/checker"}, "surface": {"node": "surface/surface"}},
+        "links": [{"from": "checker.out", "to": "surface.metallic"}]}"#;
+    std::fs::write(folder.path("steps.material.json"), steps).expect("written");
+    let run = folder.run(&["check", "--stability", "steps.material.json"]).ends(0);
+    assert!(
+        run.stdout.starts_with("steps.material.json: edges") && run.stdout.ends_with("no problems\n"),
+        "{}",
+        run.stdout
+    );
     folder.run(&["check", "wrong.material.json"]).ends(0);
     let run = folder.run(&["check", "--stability", "wrong.material.json"]).ends(3);
-    assert!(run.stdout.contains("`Back again` (culprit.out)"), "{}", run.stdout);
+    assert!(run.stdout.starts_with("wrong.material.json: unstable in f32:\n  node "), "{}", run.stdout);
+    assert!(run.stdout.contains("\n  `Back again`  culprit.out  "), "{}", run.stdout);
+    // Only what the node reads.
+    let place = run.stdout.lines().find(|line| line.starts_with("    at ")).unwrap_or_default();
+    assert!(place.starts_with("    at uv0.x = ") && !place.contains(','), "{}", run.stdout);
     let run = folder.run(&["check", "--stability", "--format", "json", "wrong.material.json"]).ends(3);
     let json = run.json();
     assert_eq!(json["unstable"][0]["node"], "culprit");
@@ -621,6 +634,14 @@ fn what_f32_gets_wrong_is_found_and_named() {
     assert!(half["node"] == "far" && half["f16"].is_null() && half["not_finite"].as_u64() > Some(0), "{json}");
     assert!(json["f16"]["edges"].is_array());
     let run = folder.run(&["check", "--stability", "--f16", "wrong.material.json"]).ends(3);
-    assert!(run.stdout.contains("f32 gives") && run.stdout.contains("f16 gives"), "{}", run.stdout);
+    assert!(run.stdout.contains("unstable in f32") && run.stdout.contains("unstable in f16"), "{}", run.stdout);
     folder.run(&["check", "--f16", "wrong.material.json"]).ends(2);
+    // A message of a file that cannot be read is one line.
+    std::fs::write(folder.path("cut.material.json"), "{\n").expect("written");
+    let json = folder.run(&["check", "--format", "json", "cut.material.json"]).ends(1).json();
+    let message = json["problems"][0]["message"].as_str().unwrap_or_default();
+    assert!(message.contains("line 2") && !message.contains('\n'), "{json}");
+    let run = folder.run(&["check", "--stability", "--format", "json", "steps.material.json"]).ends(0);
+    let edge = &run.json()["edges"][0];
+    assert!(edge["node"] == "checker" && edge["from"] != edge["to"] && edge["input"].is_object(), "{edge}");
 }

@@ -132,10 +132,23 @@ impl Draft<'_> {
 /// # Errors
 /// As for [`shader()`].
 pub fn material(document: &Document, library: &Library, methods: &Methods) -> Result<Shader, CodegenError> {
+    alone(document, library, methods, Fold::Export)
+}
+
+/// The same with all numbers open, as in [`Fold::Live`]: nothing is computed beforehand. For those who ask how a constant
+/// came about.
+///
+/// # Errors
+/// As for [`shader()`].
+pub fn material_live(document: &Document, library: &Library, methods: &Methods) -> Result<Shader, CodegenError> {
+    alone(document, library, methods, Fold::Live)
+}
+
+fn alone(document: &Document, library: &Library, methods: &Methods, fold: Fold) -> Result<Shader, CodegenError> {
     let sound = Sound::new(document, library)?;
     let Material { document, library, index, types } = sound.material()?;
     // lower
-    let mut program = lower_material(&types, methods)?;
+    let mut program = lower_material(&types, methods, fold)?;
     // fold constants
     let faults = fold::fold(&mut program, index);
     no_faults(document, library, &program, &faults)?;

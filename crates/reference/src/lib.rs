@@ -32,4 +32,4 @@ pub use error::ReferenceError;
 pub use film::Picture;
 pub use model::Conductor;
 pub use render::{Reference, RenderOptions};
-pub use stability::{Finding, Precision, Stability, StabilityError, stability};
+pub use stability::{Edge, Finding, Precision, Stability, StabilityError, stability};

@@ -1,24 +1,33 @@
 //! Where a material is numerically unstable: each of its nodes in f32 (or f16) and in f64, by the same WGSL, over the points
 //! and parameters that it may meet.
 //!
-//! The nodes of `material(context) -> Surface` are computed from the same contexts in both precisions. With f the chain of
-//! nodes up to an output and x its context, in numbers of f32, the output is unstable where
+//! The nodes of `material(context) -> Surface` are computed from the same contexts and exposed parameters in both precisions.
+//! With f the chain of nodes up to an output and x what it reads, in numbers of f32, the output is unstable where
 //!
 //! ```text
 //! |f32(x) - f64(x)| > 8 max |f64(x') - f64(x)| + 1e-3 max(|f64(x)|, rms f64),    x' within 2 ulp of x
 //! ```
 //!
-//! or where f32(x) is not finite and f64(x) is. Of f16 the tolerance is 8e-3, and x and its ulps are f16's. Steps (floor, checker, the borders of Worley's cells) are excused: between x
-//! and a neighbour where f64 has what f32 has at x there is a jump that does not shrink however closely it is looked at. They are listed as
-//! edges. A node that is only handed what a node before it spoiled is not named: the first one is.
+//! or where f32(x) is not finite and f64(x) is. Of f16 the tolerance is 8e-3, and x and its ulps are f16's. A node that is only handed
+//! what a node before it spoiled is not named: the first one is, with those behind it, which were not judged by themselves.
+//! A node whose f64(x) is no number, or infinite, where all that it is fed is finite, is unstable, too: in any arithmetic.
+//! What has no inputs but constants is computed before a shader is made; those nodes are judged as they stand in the document.
+//!
+//! Steps (floor, checker, the borders of Worley's cells) are excused: between x and a neighbour where f64 has what f32 has
+//! at x there is a jump that does not shrink however closely it is looked at. Jumps are looked for along each input as well,
+//! both sides of them are judged, and they are listed as edges.
 //!
 //! Textures are read at their finest level. Lights, lobes and the vertex stage are not judged.
 
+mod constant;
 mod domain;
+mod edge;
 mod judge;
 mod trace;
+mod wiring;
 
 use halfvector_graph::document::NodeId;
+use halfvector_interp::Half;
 use halfvector_scene::Scene;
 
 pub use crate::stability::domain::Precision;
@@ -37,14 +46,20 @@ pub struct Finding {
     pub narrow: f64,
     /// What f64 gives there.
     pub exact: f64,
-    /// Where that is: contexts (`uv0.x`) and exposed parameters by name.
+    /// Where that is: those contexts (`uv0.x`) and exposed parameters by name that the output depends on; empty where it
+    /// depends on none.
     pub input: Vec<(String, f64)>,
-    /// Points at which it is infinite or no number, and f64 is finite.
-    pub not_finite: usize,
-    /// Points at which it is 0 or below the normal range, and f64 is not 0.
+    /// Points at which it is no number, in the narrow arithmetic or in f64.
+    pub nan: usize,
+    /// Points at which it is infinite, in the narrow arithmetic or in f64.
+    pub infinite: usize,
+    /// Points at which the exact value lies below the normal range of the narrow arithmetic, and is not 0.
     pub underflows: usize,
     /// Points at which the value is too large for f16.
     pub beyond_f16: usize,
+    /// Ids of nodes that it feeds, at any distance, and that give something wrong as well: whether by themselves is not known
+    /// before this one is mended.
+    pub behind: Vec<NodeId>,
 }
 
 impl Finding {
@@ -55,13 +70,31 @@ impl Finding {
     }
 }
 
+/// An output that jumps, and that the narrow arithmetic computes well but for the place of the jump.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edge {
+    /// The node's id in the document.
+    pub node: NodeId,
+    /// For people: the node's label, or the name of its kind.
+    pub label: String,
+    /// The output, with a component where it is a vector: `out.x`.
+    pub output: String,
+    /// What it gives on one side.
+    pub from: f64,
+    /// What it gives on the other side.
+    pub to: f64,
+    /// Where that is, as in [`Finding::input`].
+    pub input: Vec<(String, f64)>,
+}
+
 /// What was found in a material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stability {
     /// Outputs that it gets wrong: at most one for each node, its worst.
     pub unstable: Vec<Finding>,
-    /// Outputs that jump, and that it gets wrong only at the jumps.
-    pub edges: Vec<Finding>,
+    /// Outputs that jump, and that it gets wrong at most at the jumps: at most one for each node, and none that is fed by
+    /// another of them.
+    pub edges: Vec<Edge>,
 }
 
 /// Why a material could not be judged.
@@ -101,6 +134,12 @@ pub enum StabilityError {
 /// # Panics
 /// When the scene has no material of that number.
 pub fn stability(scene: &Scene, material: usize, precision: Precision) -> Result<Stability, StabilityError> {
-    let trace = Trace::new(scene, &scene.materials[material])?;
-    judge::judge(&trace, precision)
+    let material = &scene.materials[material];
+    let trace = Trace::new(scene, material)?;
+    let constant = constant::nodes(&trace);
+    let live = if constant.is_empty() { None } else { Some((Trace::live(scene, material)?, constant)) };
+    match precision {
+        Precision::Single => judge::judge::<f32>(&trace, live.as_ref(), precision),
+        Precision::Half => judge::judge::<Half>(&trace, live.as_ref(), precision),
+    }
 }

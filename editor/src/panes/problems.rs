@@ -7,7 +7,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Button, TextEdit};
 use halfvector_graph::check::{Problem, Severity};
 use halfvector_graph::document::Document;
-use halfvector_reference::{Finding, Precision, Stability, stability};
+use halfvector_reference::{Edge, Finding, Precision, Stability, stability};
 use halfvector_scene::{Scene, SceneMaterial};
 
 use crate::action::{Action, found};
@@ -180,11 +180,8 @@ impl Problems {
                 if found.unstable.is_empty() {
                     ui.colored_label(theme::GOOD, "f32 computes what exact arithmetic does, everywhere that was tried");
                 }
-                found.unstable.iter().for_each(|finding| unstable(ui, session, finding, "f32 is wrong", actions));
-                found
-                    .edges
-                    .iter()
-                    .for_each(|finding| unstable(ui, session, finding, "a jump that f32 may miss", actions));
+                found.unstable.iter().for_each(|finding| unstable(ui, session, finding, actions));
+                found.edges.iter().for_each(|jump| edge(ui, session, jump, actions));
             }
         }
     }
@@ -227,18 +224,15 @@ fn row(ui: &mut egui::Ui, session: &Session, problem: &Problem, actions: &mut Ve
     });
 }
 
-fn unstable(ui: &mut egui::Ui, session: &Session, finding: &Finding, what: &str, actions: &mut Vec<Action>) {
+fn unstable(ui: &mut egui::Ui, session: &Session, finding: &Finding, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
         ui.colored_label(theme::WARNING, "⚠");
-        if ui.link(&finding.label).on_hover_text("Show the node").clicked() {
-            actions.extend(found(session.document(), &finding.node));
-        }
-        ui.weak(&finding.output);
-        let place: Vec<String> = finding.input.iter().map(|(name, x)| format!("{name} = {x:.6}")).collect();
-        let place = if place.is_empty() { "its constants".to_owned() } else { place.join(", ") };
-        ui.label(format!("{what}: {:.6} instead of {:.6} at {place}", finding.narrow, finding.exact));
+        output(ui, session, (&finding.node, &finding.label, &finding.output), actions);
+        let (narrow, exact) = (finding.narrow, finding.exact);
+        ui.label(format!("f32 is wrong: {narrow:.6} instead of {exact:.6}{}", place(&finding.input)));
         for (count, what) in [
-            (finding.not_finite, "infinite or no number"),
+            (finding.nan, "no number"),
+            (finding.infinite, "infinite"),
             (finding.underflows, "below f32's range"),
             (finding.beyond_f16, "beyond f16's range"),
         ] {
@@ -246,5 +240,32 @@ fn unstable(ui: &mut egui::Ui, session: &Session, finding: &Finding, what: &str,
                 ui.weak(format!("{what} at {count} points"));
             }
         }
+        match finding.behind.len() {
+            0 => {}
+            1 => drop(ui.weak("a node behind it is wrong as well")),
+            count => drop(ui.weak(format!("{count} nodes behind it are wrong as well"))),
+        }
     });
+}
+
+fn edge(ui: &mut egui::Ui, session: &Session, edge: &Edge, actions: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.weak("⌐");
+        output(ui, session, (&edge.node, &edge.label, &edge.output), actions);
+        ui.label(format!("jumps from {:.6} to {:.6}{}", edge.from, edge.to, place(&edge.input)));
+    });
+}
+
+/// The node, to be shown by a click, and its output.
+fn output(ui: &mut egui::Ui, session: &Session, (node, label, output): (&str, &str, &str), actions: &mut Vec<Action>) {
+    if ui.link(label).on_hover_text("Show the node").clicked() {
+        actions.extend(found(session.document(), node));
+    }
+    ui.weak(output);
+}
+
+/// Where that is.
+fn place(input: &[(String, f64)]) -> String {
+    let place: Vec<String> = input.iter().map(|(name, x)| format!("{name} = {x:.6}")).collect();
+    if place.is_empty() { String::new() } else { format!(" at {}", place.join(", ")) }
 }

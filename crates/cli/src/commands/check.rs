@@ -1,5 +1,7 @@
 //! `halfvector check`: everything that is wrong with documents.
 
+mod stability;
+
 use std::path::{Path, PathBuf};
 
 use halfvector_codegen::{CodegenError, Cost, Fold, Instructions, NodeCost, Shader};
@@ -9,10 +11,10 @@ use halfvector_graph::flatten::flatten;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput};
-use halfvector_reference::{Finding, Precision, Stability};
-use halfvector_scene::{ImageStore, Scene, SceneMaterial};
+use halfvector_scene::{ImageStore, SceneMaterial};
 use serde_json::json;
 
+use crate::commands::check::stability::Judged;
 use crate::failure::{FOUND, Failure, WRONG_INPUT};
 use crate::input::{self, Kind};
 use crate::output::{note, print, print_json};
@@ -31,7 +33,7 @@ pub(crate) struct CheckArgs {
     #[arg(value_name = "DOC", required = true)]
     documents: Vec<PathBuf>,
     /// Also runs each node in f32 and in f64 over the points and parameters that it may meet, and lists those that f32 gets
-    /// wrong; what jumps (floor, checker) is listed apart
+    /// wrong or that give no finite number; what jumps (floor, checker) is listed apart
     #[arg(long)]
     stability: bool,
     /// With --stability: also in f16, for targets that compute in half precision
@@ -48,7 +50,7 @@ pub(crate) struct CheckArgs {
 
 #[derive(clap::ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Format {
-    /// One line each
+    /// A line for each problem, tables of what --stability finds
     #[default]
     Text,
     /// One JSON object
@@ -59,14 +61,6 @@ enum Format {
 struct Found {
     file: PathBuf,
     problem: Problem,
-}
-
-/// What --stability found in a file.
-struct Judged {
-    file: PathBuf,
-    stability: Stability,
-    /// The same in f16, where that was asked for.
-    half: Option<Stability>,
 }
 
 /// What --cost found in a file.
@@ -93,8 +87,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
                     let mut problems = problems(material);
                     let sound = problems.iter().all(|problem| problem.severity != Severity::Error);
                     if args.stability && sound {
-                        match stability(material, args.f16) {
-                            Ok((stability, half)) => judged.push(Judged { file: path.clone(), stability, half }),
+                        match Judged::new(path, material, args.f16) {
+                            Ok(found) => judged.push(found),
                             Err(message) => problems.push(of_document(message)),
                         }
                     }
@@ -115,7 +109,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
                 note(&failure);
                 // As text the failure has been told; the JSON object holds everything.
                 if args.format == Format::Json {
-                    found.push(Found { file: path.clone(), problem: of_document(failure.to_string()) });
+                    found.push(Found { file: path.clone(), problem: of_document(failure.line()) });
                 }
             }
         }
@@ -123,14 +117,10 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
     match args.format {
         Format::Text => {
             let mut lines: Vec<_> = found.iter().map(|f| format!("{}: {}", f.file.display(), f.problem)).collect();
-            for Judged { file, stability, half } in &judged {
-                for (number, stability) in std::iter::once(("f32", stability)).chain(half.iter().map(|s| ("f16", s))) {
-                    lines.extend(stability.unstable.iter().map(|f| finding_line(file, "unstable", number, f)));
-                    lines.extend(stability.edges.iter().map(|f| finding_line(file, "edge", number, f)));
-                }
-            }
+            let is_sound = lines.is_empty() && !judged.iter().any(Judged::is_unstable);
+            lines.extend(judged.iter().flat_map(Judged::lines));
             lines.extend(costed.iter().flat_map(cost_lines));
-            if !unreadable && lines.is_empty() {
+            if !unreadable && is_sound && costed.is_empty() {
                 lines.push("no problems".to_owned());
             }
             print(&lines.join("\n"))?;
@@ -138,12 +128,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
         Format::Json => {
             let mut result = json!({ "problems": found.iter().map(as_json).collect::<Vec<_>>() });
             if args.stability {
-                let in_f32 = judged.iter().map(|j| (j.file.as_path(), &j.stability));
-                stability_json(in_f32, "f32", &mut result);
-                if args.f16 {
-                    let in_f16 = judged.iter().filter_map(|j| Some((j.file.as_path(), j.half.as_ref()?)));
-                    stability_json(in_f16, "f16", &mut result["f16"]);
-                }
+                stability::json(&judged, args.f16, &mut result);
             }
             if args.cost {
                 result["cost"] = costed.iter().map(cost_json).collect();
@@ -151,8 +136,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
             print_json(&result)?;
         }
     }
-    let has_error = found.iter().any(|f| f.problem.severity == Severity::Error)
-        || judged.iter().any(|j| std::iter::once(&j.stability).chain(&j.half).any(|s| !s.unstable.is_empty()));
+    let has_error =
+        found.iter().any(|f| f.problem.severity == Severity::Error) || judged.iter().any(Judged::is_unstable);
     Ok(match (unreadable, has_error) {
         (true, _) => WRONG_INPUT,
         (false, true) => FOUND,
@@ -171,67 +156,6 @@ fn as_json(found: &Found) -> serde_json::Value {
         "socket": socket,
         "message": message,
     })
-}
-
-/// Writes the lists `unstable` and `edges` of what was judged in an arithmetic.
-fn stability_json<'s>(
-    judged: impl Iterator<Item = (&'s Path, &'s Stability)> + Clone,
-    number: &str,
-    result: &mut serde_json::Value,
-) {
-    let all = |of: fn(&Stability) -> &Vec<Finding>| -> Vec<serde_json::Value> {
-        let each = |(file, stability)| of(stability).iter().map(move |f| finding_json(file, number, f));
-        judged.clone().flat_map(each).collect()
-    };
-    result["unstable"] = all(|stability| &stability.unstable).into();
-    result["edges"] = all(|stability| &stability.edges).into();
-}
-
-/// One row of the table: file, kind, node and output, both results, where. `number`: what was judged, f32 or f16.
-fn finding_line(file: &Path, kind: &str, number: &str, finding: &Finding) -> String {
-    let Finding { node, label, output, narrow, exact, input, not_finite, underflows, beyond_f16 } = finding;
-    let place: Vec<String> = input.iter().map(|(name, x)| format!("{name} = {x}")).collect();
-    let mut line = format!(
-        "{}: {kind}: `{label}` ({node}.{output}): {number} gives {narrow}, exact is {exact}, {:.3e} apart, at {}",
-        file.display(),
-        finding.error(),
-        if place.is_empty() { "its constants".to_owned() } else { place.join(", ") }
-    );
-    let below = format!("below {number}'s range");
-    for (count, what) in
-        [(not_finite, "infinite or no number"), (underflows, below.as_str()), (beyond_f16, "beyond f16's range")]
-    {
-        if *count > 0 {
-            line += &format!("; {what} at {count} points");
-        }
-    }
-    line
-}
-
-fn finding_json(file: &Path, number: &str, finding: &Finding) -> serde_json::Value {
-    let Finding { node, label, output, narrow, exact, input, not_finite, underflows, beyond_f16 } = finding;
-    // JSON has no infinity and no NaN: null.
-    json!({
-        "file": file.display().to_string(),
-        "node": node,
-        "node_label": label,
-        "output": output,
-        number: narrow,
-        "f64": exact,
-        "error": finding.error(),
-        "input": input.iter().map(|(name, x)| (name.clone(), json!(x))).collect::<serde_json::Map<_, _>>(),
-        "not_finite": not_finite,
-        "underflows": underflows,
-        "beyond_f16": beyond_f16,
-    })
-}
-
-/// Runs a material's nodes in f32 and f64, and in f16 where that is asked for.
-fn stability(material: &SceneMaterial, f16: bool) -> Result<(Stability, Option<Stability>), String> {
-    let mut scene = Scene { materials: vec![material.clone()], ..Scene::default() };
-    scene.load_images().map_err(|error| error.to_string())?;
-    let judge = |precision| halfvector_reference::stability(&scene, 0, precision).map_err(|error| error.to_string());
-    Ok((judge(Precision::Single)?, f16.then(|| judge(Precision::Half)).transpose()?))
 }
 
 /// The materials of a file.

@@ -293,10 +293,14 @@ pub(crate) fn lower<'a>(
 }
 
 /// The program of the material alone: the call of the surface node, as the root `surface` of the fragment stage.
-pub(crate) fn lower_material<'a>(types: &Types<'a>, methods: &Methods) -> Result<Program<'a>, CodegenError> {
+pub(crate) fn lower_material<'a>(
+    types: &Types<'a>,
+    methods: &Methods,
+    fold: Fold,
+) -> Result<Program<'a>, CodegenError> {
     let mut table = Table::default();
     let mut stage = Stage::default();
-    let mut lowering = Lowering::new(types, methods, Fold::Export, StageKind::Fragment);
+    let mut lowering = Lowering::new(types, methods, fold, StageKind::Fragment);
     // Making each input makes all nodes that the surface reads.
     for input in &types.nodes[types.surface].def.inputs {
         lowering.input(&mut stage.arena, &mut table, types.surface, &input.name)?;

@@ -1,8 +1,8 @@
-//! The points and parameters that a material is tried at.
+//! The points that a material is tried at: contexts and exposed parameters, one column of numbers each.
+
+use std::f64::consts::TAU;
 
 use halfvector_interp::{Float, Half};
-
-use crate::stability::trace::Trace;
 
 /// The arithmetic that is judged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -66,8 +66,8 @@ impl Precision {
 /// Points for each setting of the parameters.
 pub(super) const POINTS: usize = 1024;
 
-/// Settings: the defaults, all at the low end, all at the high end, and some between.
-pub(super) const SETTINGS: usize = 6;
+/// Settings: the defaults, all at the low end, all at the high end, and three with other numbers at each point.
+const SETTINGS: usize = 6;
 
 /// Numbers that look random and are the same on every machine: Steele, Lea and Flood 2014, "Fast splittable pseudorandom
 /// number generators" (SplitMix64).
@@ -87,91 +87,205 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
     fn direction(&mut self) -> [f64; 3] {
         let z = self.between(-1.0, 1.0);
-        let (sin, cos) = (std::f64::consts::TAU * self.unit()).sin_cos();
+        let (sin, cos) = (TAU * self.unit()).sin_cos();
         let r = (1.0 - z * z).max(0.0).sqrt();
         [r * cos, r * sin, z]
     }
 }
 
-/// Columns of the contexts' scalars, all numbers of the precision. One point in four lies on a coarse lattice, where patterns have
-/// their corners; texture coordinates go from 0 to 1, every other time from -4 to 4; positions from -2 to 2 m; colours of
-/// vertices from 0 to 1; an hour of time.
-pub(super) fn contexts(trace: &Trace<'_>, precision: Precision, random: &mut Random) -> Vec<Vec<f64>> {
-    let mut points = Vec::with_capacity(POINTS);
-    for number in 0..POINTS {
-        let mut lattice = |low: f64, high: f64| {
-            let x = random.between(low, high);
-            if number % 4 == 0 { (x * 4.0).round() / 4.0 } else { x }
-        };
-        let reach = if number % 2 == 0 { [0.0, 1.0] } else { [-4.0, 4.0] };
-        let uv0 = [lattice(reach[0], reach[1]), lattice(reach[0], reach[1])];
-        let uv1 = [lattice(reach[0], reach[1]), lattice(reach[0], reach[1])];
-        let world = [0; 3].map(|_| lattice(-2.0, 2.0));
-        let object = [0; 3].map(|_| lattice(-2.0, 2.0));
-        let time = lattice(0.0, 3600.0);
-        let (normal, other) = (random.direction(), random.direction());
-        let [n, o] = [normal, other];
-        let across = [n[1] * o[2] - n[2] * o[1], n[2] * o[0] - n[0] * o[2], n[0] * o[1] - n[1] * o[0]];
-        let length = across.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-6);
-        let view = if dot(n, o) < 0.0 { o.map(|x| -x) } else { o };
-        points.push((uv0, uv1, world, object, normal, across.map(|x| x / length), view, time));
-    }
-    trace
-        .inputs()
-        .map(|name| {
-            let mut parts = name.split('.').skip(1);
-            let context = parts.next().unwrap_or_default();
-            let (part, row) = (parts.next(), parts.next());
-            if context == "vertex_color" {
-                return points.iter().map(|_| precision.rounded(random.unit())).collect();
-            }
-            let component = part.map_or(0, |c| "xyzw".find(c).unwrap_or_default());
-            // The object stands where it was modelled, before a viewer at the origin.
-            let on_diagonal = part.and_then(|column| column.parse().ok()) == row.and_then(|row| "xyzw".find(row));
-            let of =
-                |(uv0, uv1, world, object, normal, tangent, view, time): &([f64; 2], [f64; 2], V, V, V, V, V, f64)| {
-                    let number = match context {
-                        "uv0" => uv0[component],
-                        "uv1" => uv1[component],
-                        "world_position" => world[component],
-                        "object_position" => object[component],
-                        "world_normal" => normal[component],
-                        "world_tangent" => tangent.get(component).copied().unwrap_or(1.0),
-                        "view_dir" => view[component],
-                        "time" => *time,
-                        _ if row.is_some() => f64::from(u8::from(on_diagonal)),
-                        _ => 0.0,
-                    };
-                    precision.rounded(number)
-                };
-            points.iter().map(of).collect()
-        })
-        .collect()
+/// A scalar that a material reads.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Input {
+    /// For people: `uv0.x`, `tint.y`.
+    pub(super) name: String,
+    /// Where its numbers come from.
+    pub(super) source: Source,
+    /// What the program takes it as.
+    pub(super) number: Number,
 }
 
-type V = [f64; 3];
+/// Where an input's numbers come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Source {
+    /// A context that may be anything between two numbers; of texture coordinates the inner half is met more often.
+    Range { from: f64, to: f64, is_uv: bool },
+    /// A component of one of [`Frame`]'s vectors.
+    Frame { vector: usize, component: usize },
+    /// Always the same.
+    Fixed(f64),
+    /// A component of an exposed parameter: its default and its range.
+    Parameter { default: f64, from: f64, to: f64 },
+}
 
-fn dot(a: V, b: V) -> f64 {
+/// What a program takes an input as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Number {
+    Float,
+    Signed,
+    Unsigned,
+}
+
+impl Source {
+    /// A context by its name and the way to the scalar, as the program's slot is named: `uv0`, `x`.
+    pub(super) fn of_context(name: &str, way: &[&str]) -> Source {
+        let component = way.first().and_then(|part| "xyzw".find(part)).unwrap_or_default();
+        match name {
+            "uv0" | "uv1" => Source::Range { from: -4.0, to: 4.0, is_uv: true },
+            "world_position" | "object_position" => Source::Range { from: -2.0, to: 2.0, is_uv: false },
+            "vertex_color" => Source::Range { from: 0.0, to: 1.0, is_uv: false },
+            // An hour.
+            "time" => Source::Range { from: 0.0, to: 3600.0, is_uv: false },
+            "world_normal" => Source::Frame { vector: 0, component },
+            // The fourth is the handedness.
+            "world_tangent" if component < 3 => Source::Frame { vector: 1, component },
+            "world_tangent" => Source::Fixed(1.0),
+            "view_dir" => Source::Frame { vector: 2, component },
+            // The object stands where it was modelled, before a viewer at the origin.
+            _ => match way {
+                [column, row] => Source::Fixed(f64::from(u8::from(column.parse().ok() == "xyzw".find(row)))),
+                _ => Source::Fixed(0.0),
+            },
+        }
+    }
+}
+
+impl Input {
+    /// Between which numbers it may be moved alone.
+    pub(super) fn range(&self) -> Option<[f64; 2]> {
+        match self.source {
+            Source::Range { from, to, .. } => Some([from, to]),
+            Source::Parameter { from, to, .. } if from < to => Some([from, to]),
+            Source::Parameter { .. } | Source::Frame { .. } | Source::Fixed(_) => None,
+        }
+    }
+
+    /// Whether a number that it is given may lie between two neighbours.
+    pub(super) fn is_float(&self) -> bool {
+        self.number == Number::Float
+    }
+
+    fn is_parameter(&self) -> bool {
+        matches!(self.source, Source::Parameter { .. })
+    }
+
+    /// The nearest number that it can be.
+    pub(super) fn rounded(&self, precision: Precision, x: f64) -> f64 {
+        if self.is_float() { precision.rounded(x) } else { x.round() }
+    }
+}
+
+/// A place on a surface as it is seen: normal, tangent and the direction to the viewer, all of length 1; the tangent lies across
+/// the normal and the viewer not behind the surface.
+#[derive(Clone, Copy, Debug)]
+struct Frame([[f64; 3]; 3]);
+
+impl Frame {
+    fn new(random: &mut Random) -> Frame {
+        let (normal, other) = (random.direction(), random.direction());
+        let behind = dot(normal, other) < 0.0;
+        Frame([normal, other, if behind { other.map(|x| -x) } else { other }]).straight()
+    }
+
+    /// With lengths of 1, and the tangent across the normal.
+    fn straight(self) -> Frame {
+        let [normal, tangent, view] = self.0;
+        let normal = unit(normal);
+        let along = dot(normal, tangent);
+        let tangent = [0, 1, 2].map(|i| tangent[i] - along * normal[i]);
+        Frame([normal, unit(tangent), unit(view)])
+    }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The numbers of each parameter in setting number `setting`.
-pub(super) fn setting(trace: &Trace<'_>, precision: Precision, setting: usize, random: &mut Random) -> Vec<Vec<f32>> {
-    let of = |parameter: &crate::stability::trace::Parameter| {
-        let [low, high] = parameter.range;
-        let mut number = |default: f32| match setting {
-            0 => default,
-            1 => low,
-            2 => high,
-            _ => random.between(f64::from(low), f64::from(high)) as f32,
-        };
-        parameter.default.iter().map(|&default| precision.rounded(f64::from(number(default))) as f32).collect()
-    };
-    trace.parameters.iter().map(of).collect()
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = dot(v, v).sqrt().max(1e-6);
+    v.map(|x| x / length)
+}
+
+/// Points: a column for each input.
+#[derive(Clone, Debug)]
+pub(super) struct Points {
+    pub(super) columns: Vec<Vec<f64>>,
+    pub(super) count: usize,
+}
+
+impl Points {
+    /// Of points that are rows of numbers.
+    pub(super) fn of<'p>(inputs: &[Input], points: impl IntoIterator<Item = &'p [f64]>) -> Points {
+        let mut all = Points { columns: vec![Vec::new(); inputs.len()], count: 0 };
+        for point in points {
+            all.columns.iter_mut().zip(point).for_each(|(column, x)| column.push(*x));
+            all.count += 1;
+        }
+        all
+    }
+
+    /// One of them.
+    pub(super) fn point(&self, number: usize) -> Vec<f64> {
+        self.columns.iter().map(|column| column[number]).collect()
+    }
+}
+
+/// What is tried, one element for each setting of the parameters; all are numbers of the precision. One point in four lies on a
+/// coarse lattice, where patterns have their corners; texture coordinates are from 0 to 1 at every other point.
+pub(super) fn domain(inputs: &[Input], precision: Precision, random: &mut Random) -> Vec<Points> {
+    let settings = if inputs.iter().any(Input::is_parameter) { SETTINGS } else { 1 };
+    (0..settings).map(|setting| points(inputs, precision, setting, random)).collect()
+}
+
+fn points(inputs: &[Input], precision: Precision, setting: usize, random: &mut Random) -> Points {
+    let mut columns = vec![Vec::with_capacity(POINTS); inputs.len()];
+    for number in 0..POINTS {
+        let Frame(frame) = Frame::new(random);
+        for (input, column) in inputs.iter().zip(&mut columns) {
+            let x = match input.source {
+                Source::Range { from, to, is_uv } => {
+                    let [from, to] = if is_uv && number % 2 == 0 { [0.0, 1.0] } else { [from, to] };
+                    let x = random.between(from, to);
+                    if number % 4 == 0 { (x * 4.0).round() / 4.0 } else { x }
+                }
+                Source::Frame { vector, component } => frame[vector][component],
+                Source::Fixed(x) => x,
+                Source::Parameter { default, from, to } => match setting {
+                    0 => default,
+                    1 => from,
+                    2 => to,
+                    _ => random.between(from, to),
+                },
+            };
+            column.push(input.rounded(precision, x));
+        }
+    }
+    Points { columns, count: POINTS }
+}
+
+/// The point halfway between two. Where they differ in a direction the frame is made straight again.
+pub(super) fn between(inputs: &[Input], a: &[f64], b: &[f64]) -> Vec<f64> {
+    let mut middle: Vec<f64> = a.iter().zip(b).map(|(a, b)| if a == b { *a } else { 0.5 * (a + b) }).collect();
+    let turns = |(i, input): (usize, &Input)| matches!(input.source, Source::Frame { .. }) && a[i] != b[i];
+    if inputs.iter().enumerate().any(turns) {
+        // A normal that the material does not read is 0: no tangent is held across it.
+        let mut frame = [[0.0; 3]; 3];
+        for (input, x) in inputs.iter().zip(&middle) {
+            if let Source::Frame { vector, component } = input.source {
+                frame[vector][component] = *x;
+            }
+        }
+        let Frame(frame) = Frame(frame).straight();
+        for (input, x) in inputs.iter().zip(&mut middle) {
+            if let Source::Frame { vector, component } = input.source {
+                *x = frame[vector][component];
+            }
+        }
+    }
+    middle
 }

@@ -2,12 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use halfvector_graph::document::{Document, NodeId};
-use halfvector_interp::{Float, Half};
+use halfvector_graph::document::NodeId;
+use halfvector_interp::Float;
 
-use crate::stability::domain::{POINTS, Precision, Random, SETTINGS, contexts, setting};
+use crate::stability::constant::gives_surface;
+use crate::stability::domain::{POINTS, Points, Precision, Random, Source, domain};
+use crate::stability::edge::{self, Jump, Wrong};
 use crate::stability::trace::{Trace, Value};
-use crate::stability::{Finding, Stability, StabilityError};
+use crate::stability::wiring::Wiring;
+use crate::stability::{Edge, Finding, Stability, StabilityError};
 
 /// How many times the change of f64 within [`ULPS`] an error may be.
 const FACTOR: f64 = 8.0;
@@ -21,20 +24,18 @@ const NEIGHBOURS: usize = 8;
 /// Points at which one output is looked at closely.
 const SUSPECTS: usize = 16;
 
-/// Neighbours that are tried when a jump is looked for.
-const TRIES: usize = 96;
+/// Points at which it is tried what an output depends on.
+const PROBES: usize = 64;
 
-/// Parts that the way across a jump is cut in, again and again: five times make 2^-35 of the way.
-const PARTS: usize = 127;
-
-/// How often.
-const ROUNDS: usize = 5;
+/// The size of a constant below which an error is measured against this size: what is left when constants that are alike are
+/// subtracted is no fault before it matters beside 1.
+const LEAST_CONSTANT: f64 = 1e-4;
 
 /// A point at which an output is wrong.
 #[derive(Clone, Copy, Debug)]
 struct Suspect {
     value: usize,
-    setting: usize,
+    set: usize,
     point: usize,
     narrow: f64,
     exact: f64,
@@ -46,101 +47,249 @@ impl Suspect {
         let error = (self.narrow - self.exact).abs();
         if error.is_nan() { f64::INFINITY } else { error }
     }
+
+    fn wrong(&self, sets: &[Points]) -> Wrong {
+        Wrong {
+            value: self.value,
+            at: sets[self.set].point(self.point),
+            narrow: self.narrow,
+            error: self.error(),
+            tolerance: self.tolerance,
+        }
+    }
 }
 
 /// How often a value is at the ends of the range.
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
-    not_finite: usize,
+    nan: usize,
+    infinite: usize,
     underflows: usize,
     beyond_f16: usize,
 }
 
-pub(super) fn judge(trace: &Trace<'_>, precision: Precision) -> Result<Stability, StabilityError> {
-    match precision {
-        Precision::Single => judge_in::<f32>(trace, precision),
-        Precision::Half => judge_in::<Half>(trace, precision),
+impl Counts {
+    fn take(&mut self, precision: Precision, narrow: f64, exact: f64) {
+        let is_nan = narrow.is_nan() || exact.is_nan();
+        self.nan += usize::from(is_nan);
+        self.infinite += usize::from(!is_nan && (narrow.is_infinite() || exact.is_infinite()));
+        self.underflows += usize::from(exact != 0.0 && exact.abs() < precision.least_normal());
+        self.beyond_f16 += usize::from(exact.abs() > 65504.0);
     }
 }
 
-fn judge_in<F: Float>(trace: &Trace<'_>, precision: Precision) -> Result<Stability, StabilityError> {
+/// What is seen at all points, by value.
+#[derive(Debug, Default)]
+struct Tally {
+    counts: Vec<Counts>,
+    /// Largest rms of each output.
+    rms: Vec<f64>,
+    /// The narrow arithmetic is wrong.
+    suspects: BTreeMap<usize, Vec<Suspect>>,
+    /// It is wrong by more than the tolerance, but exact arithmetic changes as much nearby: the worst.
+    excused: BTreeMap<usize, Suspect>,
+    /// Not finite in exact arithmetic, where all that the node is fed is.
+    makers: BTreeMap<usize, Suspect>,
+    /// Nodes that are not finite somewhere.
+    not_finite: BTreeSet<NodeId>,
+}
+
+/// `live`: the material with its constant nodes, where it has such, and which those are.
+pub(super) fn judge<F: Float>(
+    trace: &Trace<'_>,
+    live: Option<&(Trace<'_>, BTreeSet<NodeId>)>,
+    precision: Precision,
+) -> Result<Stability, StabilityError> {
     let mut random = Random::new(1);
-    let mut domains = Vec::new();
-    let settings = if trace.parameters.is_empty() { 1 } else { SETTINGS };
-    for number in 0..settings {
-        domains.push((contexts(trace, precision, &mut random), setting(trace, precision, number, &mut random)));
+    let mut sets = domain(&trace.inputs, precision, &mut random);
+    let wiring = Wiring::new(trace);
+    let fed = wiring.fed();
+    let fed: Vec<&[usize]> = trace.values.iter().map(|value| fed[&value.node].as_slice()).collect();
+    let mut tally = Tally { counts: vec![Counts::default(); trace.values.len()], ..Tally::default() };
+    let settings = sets.len();
+    for set in sets.iter().enumerate() {
+        tally.take::<F>(trace, precision, &fed, set, None, &mut random)?;
     }
-    let mut counts = vec![Counts::default(); trace.values.len()];
-    let mut suspects: BTreeMap<usize, Vec<Suspect>> = BTreeMap::new();
-    for (number, (points, parameters)) in domains.iter().enumerate() {
-        let narrow = trace.run::<F>(points, POINTS, parameters)?;
-        let exact = trace.run::<f64>(points, POINTS, parameters)?;
-        let change = change(trace, precision, points, parameters, &exact, &mut random)?;
-        let rms = rms(&trace.values, &exact);
-        for value in 0..trace.values.len() {
-            for point in 0..POINTS {
-                let (narrow, exact) = (narrow[value][point], exact[value][point]);
-                let count = &mut counts[value];
-                count.not_finite += usize::from(exact.is_finite() && !narrow.is_finite());
-                count.underflows += usize::from(exact != 0.0 && narrow.abs() < precision.least_normal());
-                count.beyond_f16 += usize::from(exact.abs() > 65504.0);
-                let tolerance = precision.tolerance() * exact.abs().max(rms[trace.values[value].group]);
-                let suspect = Suspect { value, setting: number, point, narrow, exact, tolerance };
-                let allowed = FACTOR * change[value][point] + tolerance;
-                if exact.is_finite() && (!narrow.is_finite() || suspect.error() > allowed) {
-                    suspects.entry(value).or_default().push(suspect);
+    let mut jumps = edge::search(trace, &wiring, precision, &sets, &tally.rms, &mut random)?;
+    if !jumps.is_empty() {
+        let (points, of) = edge::both_sides(&trace.inputs, precision, &jumps);
+        let jump_at: Vec<&Jump> = of.iter().map(|number| &jumps[*number]).collect();
+        tally.take::<F>(trace, precision, &fed, (settings, &points), Some(&jump_at), &mut random)?;
+        sets.push(points);
+    }
+    // What remains when edges are excused.
+    let mut worst: Vec<Suspect> = Vec::new();
+    for all in tally.suspects.values_mut() {
+        all.sort_by(|a, b| b.error().total_cmp(&a.error()));
+        // From the worst to the least, evenly: the worst ones alone may all stand at jumps.
+        let step = all.len().div_ceil(SUSPECTS).max(1);
+        let mut kept = None;
+        for suspect in all.iter().step_by(step) {
+            let jump = if suspect.narrow.is_finite() {
+                edge::beside(trace, precision, &suspect.wrong(&sets), &mut random)?
+            } else {
+                None
+            };
+            match jump {
+                Some(jump) => kept = kept.or(Some(jump)),
+                None => {
+                    worst.push(*suspect);
+                    kept = None;
+                    break;
                 }
             }
         }
+        jumps.extend(kept);
     }
-    let mut stability = Stability::default();
-    let (mut unstable, mut edges) = (BTreeMap::new(), BTreeMap::new());
-    for (value, mut all) in suspects {
-        all.sort_by(|a, b| b.error().total_cmp(&a.error()));
-        let mut worst = None;
-        // From the worst to the least, evenly: the worst ones alone may all stand at jumps.
-        let step = all.len().div_ceil(SUSPECTS).max(1);
-        for suspect in all.iter().step_by(step) {
-            let (points, parameters) = &domains[suspect.setting];
-            if !suspect.narrow.is_finite() || !is_edge(trace, precision, points, parameters, suspect, &mut random)? {
-                worst = Some(*suspect);
-                break;
-            }
+    for (value, suspect) in &tally.excused {
+        if !tally.suspects.contains_key(value) && !jumps.iter().any(|jump| jump.value == *value) {
+            jumps.extend(edge::beside(trace, precision, &suspect.wrong(&sets), &mut random)?);
         }
-        let (list, suspect) = match worst {
-            Some(suspect) => (&mut unstable, suspect),
-            None => (&mut edges, all[0]),
-        };
-        let finding = finding(trace, &domains[suspect.setting], &suspect, counts[value]);
-        let kept = list.entry(finding.node.clone()).or_insert_with(|| finding.clone());
+    }
+    let constants = match live {
+        Some((live, constant)) => constants::<F>(live, constant, precision)?,
+        None => Vec::new(),
+    };
+    let wrong: BTreeSet<NodeId> = worst
+        .iter()
+        .map(|suspect| trace.values[suspect.value].node.clone())
+        .chain(constants.iter().map(|finding| finding.node.clone()))
+        .collect();
+    let reads = if worst.is_empty() && tally.makers.is_empty() && jumps.is_empty() {
+        Vec::new()
+    } else {
+        reads::<F>(trace, precision, &sets[settings - 1], &mut random)?
+    };
+    let is_first = |node: &NodeId| !wiring.has_source(node, &wrong);
+    let spoiled = worst.iter().filter(|suspect| is_first(&trace.values[suspect.value].node));
+    let found = spoiled.chain(tally.makers.values()).map(|suspect| {
+        let is_read = |input: usize| reads[input][suspect.value];
+        let input = input(trace, is_read, &sets[suspect.set].point(suspect.point));
+        finding(&trace.values[suspect.value], suspect, tally.counts[suspect.value], input)
+    });
+    let mut unstable: BTreeMap<NodeId, Finding> = BTreeMap::new();
+    for finding in constants.into_iter().filter(|finding| is_first(&finding.node)).chain(found) {
+        let kept = unstable.entry(finding.node.clone()).or_insert_with(|| finding.clone());
         if finding.error() > kept.error() {
             *kept = finding;
         }
     }
-    let wrong: BTreeSet<NodeId> = unstable.keys().cloned().collect();
-    stability.unstable = unstable.into_values().filter(|f| !has_source(&trace.flat, &f.node, &wrong)).collect();
+    let is_surface = |node: &&NodeId| {
+        let def = trace.flat.graph.nodes.get(*node).and_then(|node| trace.library.get(&node.node));
+        def.is_some_and(gives_surface)
+    };
+    let named: BTreeSet<NodeId> = unstable.keys().cloned().collect();
+    let unnamed: BTreeSet<&NodeId> = wrong.union(&tally.not_finite).filter(|node| !named.contains(*node)).collect();
+    for finding in unstable.values_mut() {
+        let first = BTreeSet::from([finding.node.clone()]);
+        // A surface only gathers what it is fed.
+        let behind = unnamed.iter().copied().filter(|node| !is_surface(node) && wiring.has_source(node, &first));
+        finding.behind = behind.cloned().collect();
+    }
+    let mut edges: BTreeMap<NodeId, Jump> = BTreeMap::new();
+    for jump in jumps {
+        let node = &trace.values[jump.value].node;
+        if edges.get(node).is_none_or(|kept| kept.height() < jump.height()) {
+            edges.insert(node.clone(), jump);
+        }
+    }
     let jumping: BTreeSet<NodeId> = edges.keys().chain(&wrong).cloned().collect();
-    stability.edges = edges
-        .into_values()
-        .filter(|f| !wrong.contains(&f.node) && !has_source(&trace.flat, &f.node, &jumping))
-        .collect();
-    Ok(stability)
+    edges.retain(|node, _| !wrong.contains(node) && !named.contains(node) && !wiring.has_source(node, &jumping));
+    let edge = |jump: Jump| {
+        let Value { node, label, output, .. } = trace.values[jump.value].clone();
+        let at: Vec<f64> =
+            trace.inputs.iter().zip(&jump.before).map(|(input, x)| input.rounded(precision, *x)).collect();
+        let causes = edge::causes(trace, &jump)?;
+        let input = input(trace, |input| causes[input] || reads[input][jump.value], &at);
+        Ok(Edge { node, label, output, from: jump.from, to: jump.to, input })
+    };
+    let edges = edges.into_values().map(edge).collect::<Result<_, _>>()?;
+    Ok(Stability { unstable: unstable.into_values().collect(), edges })
+}
+
+impl Tally {
+    /// Looks at the points of a set. `fed`: the values that each value's node is fed. `jumps`: of points at a jump the jump;
+    /// there its node alone is judged, since those behind it may have been fed the other side.
+    fn take<F: Float>(
+        &mut self,
+        trace: &Trace<'_>,
+        precision: Precision,
+        fed: &[&[usize]],
+        (set, points): (usize, &Points),
+        jumps: Option<&[&Jump]>,
+        random: &mut Random,
+    ) -> Result<(), StabilityError> {
+        let narrow = trace.run::<F>(points)?;
+        let exact = trace.run::<f64>(points)?;
+        let change = change(trace, precision, points, &exact, random)?;
+        let rms = rms(&trace.values, &exact);
+        // A set of few points alone says little of how large an output is.
+        let rms: Vec<f64> = if points.count < POINTS { self.rms.clone() } else { rms };
+        self.rms.resize(rms.len(), 0.0);
+        self.rms.iter_mut().zip(&rms).for_each(|(most, rms)| *most = most.max(*rms));
+        for (value, Value { node, group, .. }) in trace.values.iter().enumerate() {
+            for point in 0..points.count {
+                // The other side is an ulp away.
+                let beyond = match jumps.map(|jumps| jumps[point]) {
+                    Some(jump) if trace.values[jump.value].node != *node => continue,
+                    Some(jump) if jump.value == value => jump.height(),
+                    _ => 0.0,
+                };
+                let (narrow, there) = (narrow[value][point], exact[value][point]);
+                self.counts[value].take(precision, narrow, there);
+                let tolerance = precision.tolerance() * there.abs().max(rms[*group]);
+                let suspect = Suspect { value, set, point, narrow, exact: there, tolerance };
+                if !there.is_finite() {
+                    self.not_finite.insert(node.clone());
+                    if fed[value].iter().all(|from| exact[*from][point].is_finite()) {
+                        let kept = self.makers.entry(value).or_insert(suspect);
+                        if kept.narrow.is_finite() && !narrow.is_finite() {
+                            *kept = suspect;
+                        }
+                    }
+                } else if !narrow.is_finite() || suspect.error() > FACTOR * change[value][point].max(beyond) + tolerance
+                {
+                    self.suspects.entry(value).or_default().push(suspect);
+                } else if suspect.error() > tolerance {
+                    let kept = self.excused.entry(value).or_insert(suspect);
+                    if kept.error() < suspect.error() {
+                        *kept = suspect;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The largest change of each value between each point and its neighbours.
 fn change(
     trace: &Trace<'_>,
     precision: Precision,
-    points: &[Vec<f64>],
-    parameters: &[Vec<f32>],
+    points: &Points,
     exact: &[Vec<f64>],
     random: &mut Random,
 ) -> Result<Vec<Vec<f64>>, StabilityError> {
-    let mut change = vec![vec![0.0_f64; POINTS]; exact.len()];
-    for _ in 0..NEIGHBOURS {
-        let mut near = points.to_vec();
-        near.iter_mut().flatten().for_each(|x| *x = precision.moved(*x, ULPS * (2.0 * random.unit() - 1.0).round()));
-        for (value, there) in trace.run::<f64>(&near, POINTS, parameters)?.into_iter().enumerate() {
+    let mut change = vec![vec![0.0_f64; points.count]; exact.len()];
+    let mut ways: Vec<Vec<f64>> = Vec::new();
+    for number in 0..NEIGHBOURS {
+        // Every other neighbour lies opposite to the last. The first ones are moved along all inputs, the others along half.
+        if number % 2 == 0 {
+            let reach = if number < NEIGHBOURS / 2 { 1.0 } else { 0.5 };
+            let mut way = || {
+                let x = 2.0 * random.unit() - 1.0;
+                if x.abs() < reach { x.signum() } else { 0.0 }
+            };
+            ways = points.columns.iter().map(|column| column.iter().map(|_| way()).collect()).collect();
+        }
+        let ulps = if number % 2 == 0 { ULPS } else { -ULPS };
+        let mut near = points.clone();
+        for ((input, column), ways) in trace.inputs.iter().zip(&mut near.columns).zip(&ways) {
+            if input.is_float() {
+                column.iter_mut().zip(ways).for_each(|(x, way)| *x = precision.moved(*x, ulps * way));
+            }
+        }
+        for (value, there) in trace.run::<f64>(&near)?.into_iter().enumerate() {
             for (point, there) in there.into_iter().enumerate() {
                 let difference = (there - exact[value][point]).abs();
                 if difference > change[value][point] {
@@ -166,84 +315,83 @@ fn rms(values: &[Value], exact: &[Vec<f64>]) -> Vec<f64> {
     sums.into_iter().map(|(sum, count): (f64, f64)| (sum / count.max(1.0)).sqrt()).collect()
 }
 
-/// Whether f64 jumps beside a point to what the narrow arithmetic gives at it.
-fn is_edge(
+/// Which inputs change which values, by input, in either arithmetic.
+fn reads<F: Float>(
     trace: &Trace<'_>,
     precision: Precision,
-    points: &[Vec<f64>],
-    parameters: &[Vec<f32>],
-    suspect: &Suspect,
+    set: &Points,
     random: &mut Random,
-) -> Result<bool, StabilityError> {
-    let at: Vec<f64> = points.iter().map(|column| column[suspect.point]).collect();
-    // Ever farther, from less than an ulp.
-    let mut tries: Vec<Vec<f64>> = vec![Vec::with_capacity(TRIES); at.len()];
-    for number in 0..TRIES {
-        let radius = precision.reach() * 0.5_f64.powf((TRIES - 1 - number) as f64 / 8.0);
-        for (column, x) in tries.iter_mut().zip(&at) {
-            column.push(x + radius * x.abs().max(1.0) * (2.0 * random.unit() - 1.0));
-        }
+) -> Result<Vec<Vec<bool>>, StabilityError> {
+    let first = |column: &Vec<f64>| column[..PROBES].to_vec();
+    let mut points = Points { columns: set.columns.iter().map(first).collect(), count: PROBES };
+    let run = |points: &Points| Ok([trace.run::<F>(points)?, trace.run::<f64>(points)?].concat());
+    let before = run(&points)?;
+    let mut reads = Vec::with_capacity(trace.inputs.len());
+    for (number, input) in trace.inputs.iter().enumerate() {
+        let others = match input.source {
+            Source::Parameter { from, to, .. } => {
+                (0..PROBES).map(|_| input.rounded(precision, random.between(from, to))).collect()
+            }
+            Source::Range { .. } | Source::Frame { .. } | Source::Fixed(_) => {
+                set.columns[number][PROBES..2 * PROBES].to_vec()
+            }
+        };
+        let kept = std::mem::replace(&mut points.columns[number], others);
+        let after = run(&points)?;
+        points.columns[number] = kept;
+        let differ = |(a, b): (&f64, &f64)| a != b && !(a.is_nan() && b.is_nan());
+        let changed: Vec<bool> = before.iter().zip(&after).map(|(a, b)| a.iter().zip(b).any(differ)).collect();
+        let (narrow, exact) = changed.split_at(trace.values.len());
+        reads.push(narrow.iter().zip(exact).map(|(a, b)| *a || *b).collect());
     }
-    let there = trace.run::<f64>(&tries, TRIES, parameters)?;
-    let alike = |x: f64| (x - suspect.narrow).abs() <= 0.1 * suspect.error() + suspect.tolerance;
-    let Some(found) = (0..TRIES).find(|&number| alike(there[suspect.value][number])) else { return Ok(false) };
-    let mut ends = [at, tries.iter().map(|column| column[found]).collect::<Vec<f64>>()];
-    let mut jump = f64::INFINITY;
-    for _ in 0..ROUNDS {
-        // All points of a round are one batch of the interpreter.
-        let part = |a: f64, b: f64, number: usize| a + (b - a) * number as f64 / PARTS as f64;
-        let on_the_way = |(a, b): (&f64, &f64)| (0..=PARTS).map(|number| part(*a, *b, number)).collect();
-        let columns: Vec<Vec<f64>> = ends[0].iter().zip(&ends[1]).map(on_the_way).collect();
-        let numbers = trace.run::<f64>(&columns, PARTS + 1, parameters)?.swap_remove(suspect.value);
-        let step = |number: &usize| (numbers[number + 1] - numbers[*number]).abs();
-        let Some(largest) = (0..PARTS).max_by(|a, b| step(a).total_cmp(&step(b))) else { return Ok(false) };
-        jump = step(&largest);
-        ends = [largest, largest + 1].map(|number| columns.iter().map(|column| column[number]).collect());
-    }
-    Ok(jump > 0.5 * suspect.error())
+    Ok(reads)
 }
 
-/// Whether one of some nodes feeds a node, at any distance.
-fn has_source(document: &Document, node: &NodeId, of: &BTreeSet<NodeId>) -> bool {
-    let mut open = vec![node];
-    let mut seen = BTreeSet::new();
-    while let Some(at) = open.pop() {
-        for link in document.graph.links.iter().filter(|link| link.to.node == *at) {
-            if of.contains(&link.from.node) {
-                return true;
-            }
-            if seen.insert(&link.from.node) {
-                open.push(&link.from.node);
-            }
-        }
-    }
-    false
+/// Those inputs at a point that something depends on.
+fn input(trace: &Trace<'_>, is_read: impl Fn(usize) -> bool, at: &[f64]) -> Vec<(String, f64)> {
+    let all = trace.inputs.iter().zip(at).enumerate();
+    all.filter(|(number, _)| is_read(*number)).map(|(_, (input, x))| (input.name.clone(), *x)).collect()
 }
 
-fn finding(
+/// What f32 (or f16) makes of constants that the shader has the result of.
+fn constants<F: Float>(
     trace: &Trace<'_>,
-    (points, parameters): &(Vec<Vec<f64>>, Vec<Vec<f32>>),
-    suspect: &Suspect,
-    counts: Counts,
-) -> Finding {
-    let Value { node, label, output, .. } = trace.values[suspect.value].clone();
-    let contexts = trace
-        .inputs()
-        .zip(points)
-        .map(|(name, column)| (name.strip_prefix("context.").unwrap_or(name).to_owned(), column[suspect.point]));
-    let set = trace.parameters.iter().zip(parameters).flat_map(|(parameter, numbers)| {
-        let name = |i: usize| if numbers.len() == 1 { String::new() } else { format!(".{}", ["x", "y", "z", "w"][i]) };
-        numbers.iter().enumerate().map(move |(i, x)| (format!("{}{}", parameter.name, name(i)), f64::from(*x)))
-    });
+    constant: &BTreeSet<NodeId>,
+    precision: Precision,
+) -> Result<Vec<Finding>, StabilityError> {
+    let points = domain(&trace.inputs, precision, &mut Random::new(1)).swap_remove(0);
+    let point = Points::of(&trace.inputs, [points.point(0).as_slice()]);
+    let (narrow, exact) = (trace.run::<F>(&point)?, trace.run::<f64>(&point)?);
+
+    let rms = rms(&trace.values, &exact);
+    let mut findings = Vec::new();
+    for (number, value) in trace.values.iter().enumerate().filter(|(_, value)| constant.contains(&value.node)) {
+        let (narrow, exact) = (narrow[number][0], exact[number][0]);
+        let tolerance = precision.tolerance() * exact.abs().max(rms[value.group]).max(LEAST_CONSTANT);
+        let suspect = Suspect { value: number, set: 0, point: 0, narrow, exact, tolerance };
+        if suspect.error() > tolerance {
+            let mut counts = Counts::default();
+            counts.take(precision, narrow, exact);
+            findings.push(finding(value, &suspect, counts, Vec::new()));
+        }
+    }
+    Ok(findings)
+}
+
+fn finding(value: &Value, suspect: &Suspect, counts: Counts, input: Vec<(String, f64)>) -> Finding {
+    let Value { node, label, output, .. } = value.clone();
+    let Counts { nan, infinite, underflows, beyond_f16 } = counts;
     Finding {
         node,
         label,
         output,
         narrow: suspect.narrow,
         exact: suspect.exact,
-        input: contexts.chain(set).collect(),
-        not_finite: counts.not_finite,
-        underflows: counts.underflows,
-        beyond_f16: counts.beyond_f16,
+        input,
+        nan,
+        infinite,
+        underflows,
+        beyond_f16,
+        behind: Vec::new(),
     }
 }

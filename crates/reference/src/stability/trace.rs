@@ -1,36 +1,39 @@
-//! All nodes of a material at once: `material(context)` with every node's outputs as its result.
+//! All nodes of a material at once: `material(context)` with every node's outputs as its result, and with the exposed
+//! parameters as an argument, so that each point has its own.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use halfvector_codegen::Origin;
-use halfvector_codegen::Shader;
-use halfvector_codegen::reflection::{Resource, TextureSource, UniformBlock, UniformSource};
+use halfvector_codegen::reflection::{Resource, TextureSource};
 use halfvector_codegen::uniforms::fill_input;
+use halfvector_codegen::{CodegenError, Origin, Shader};
 use halfvector_graph::check::node_label;
 use halfvector_graph::document::{Document, NodeId};
 use halfvector_graph::flatten::flatten;
 use halfvector_graph::library::Library;
-use halfvector_interp::{Column, Derivatives, Entry, Float, Limits, Outputs, Program, Resources, Sampler, Texture};
+use halfvector_interp::{
+    Column, Derivatives, Entry, Float, Limits, Outputs, Program, Resources, Sampler, Slot, Texture,
+};
 use halfvector_scene::{Scene, SceneMaterial};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{ScalarKind, TypeInner};
 
 use crate::stability::StabilityError;
+use crate::stability::domain::{Input, Number, Points, Source};
 
 /// A material that tells what its nodes compute.
 pub(super) struct Trace<'d> {
-    document: &'d Document,
-    /// The same with its groups taken apart: nodes have the ids that the shader names.
+    name: &'d str,
+    /// The document with its groups taken apart: nodes have the ids that the shader names.
     pub(super) flat: Cow<'d, Document>,
+    /// The definitions of its nodes.
+    pub(super) library: Library,
     program: Program,
+    /// Each scalar that it reads.
+    pub(super) inputs: Vec<Input>,
     /// Each scalar of the result.
     pub(super) values: Vec<Value>,
-    /// The parameters' block: group, binding, layout.
-    block: Option<((u32, u32), UniformBlock)>,
-    /// Exposed parameters: the uniform's member, the socket, how many numbers, their range.
-    pub(super) parameters: Vec<Parameter>,
     textures: Vec<((u32, u32), Texture)>,
     samplers: Vec<((u32, u32), Sampler)>,
 }
@@ -40,19 +43,12 @@ pub(super) struct Trace<'d> {
 pub(super) struct Value {
     pub(super) node: NodeId,
     pub(super) label: String,
-    /// `out`, `out.x`, `f1`.
+    /// The socket: `out`, `f1`.
+    pub(super) socket: String,
+    /// With the component, where it is a vector: `out.x`.
     pub(super) output: String,
     /// The same number for all components of one output.
     pub(super) group: usize,
-}
-
-/// A parameter that a material exposes.
-#[derive(Clone, Debug)]
-pub(super) struct Parameter {
-    pub(super) name: String,
-    source: UniformSource,
-    pub(super) default: Vec<f32>,
-    pub(super) range: [f32; 2],
 }
 
 /// A value that `material` names: its node, and the text and type of each output.
@@ -62,43 +58,66 @@ struct Named {
 }
 
 impl<'d> Trace<'d> {
+    /// The material as it is exported: what is constant is a number.
     pub(super) fn new(scene: &Scene, material: &'d SceneMaterial) -> Result<Trace<'d>, StabilityError> {
+        let shader = halfvector_codegen::material(&material.document, Library::standard(), &scene.methods);
+        Trace::of(scene, material, shader)
+    }
+
+    /// The material with every node that reaches the surface: all numbers of the document are inputs, fixed unless exposed.
+    pub(super) fn live(scene: &Scene, material: &'d SceneMaterial) -> Result<Trace<'d>, StabilityError> {
+        let shader = halfvector_codegen::material_live(&material.document, Library::standard(), &scene.methods);
+        Trace::of(scene, material, shader)
+    }
+
+    fn of(
+        scene: &Scene,
+        material: &'d SceneMaterial,
+        shader: Result<Shader, CodegenError>,
+    ) -> Result<Trace<'d>, StabilityError> {
         let document = &material.document;
         let wrong = |why: String| StabilityError::Shader { material: document.name.clone(), why };
-        let shader = halfvector_codegen::material(document, Library::standard(), &scene.methods)
-            .map_err(|error| wrong(error.to_string()))?;
+        let shader = shader.map_err(|error| wrong(error.to_string()))?;
         let named = named(&shader).map_err(wrong)?;
         let text = with_trace(&shader, &named).map_err(wrong)?;
         let module = naga::front::wgsl::parse_str(&text).map_err(|error| wrong(error.message().to_owned()))?;
-        let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+        let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
             .validate(&module)
             .map_err(|error| wrong(error.as_inner().to_string()))?;
         let program = Program::compile(&module, &info, Entry::Function("trace"))
             .map_err(|error| StabilityError::Run { material: document.name.clone(), why: error.to_string() })?;
-        let flat = flatten(document, Library::standard()).map_err(|error| wrong(error.to_string()))?.document;
+        let flat = flatten(document, Library::standard()).map_err(|error| wrong(error.to_string()))?;
         let mut values = Vec::new();
         let mut group = 0;
         for Named { node, outputs } in &named {
-            let label = node_label(&flat.graph, Library::standard(), node);
-            for (output, _, components) in outputs {
+            let label = node_label(&flat.document.graph, &flat.library, node);
+            for (socket, _, components) in outputs {
                 for component in 0..*components {
                     let output = if *components == 1 {
-                        output.clone()
+                        socket.clone()
                     } else {
-                        format!("{output}.{}", ["x", "y", "z", "w"][component])
+                        format!("{socket}.{}", ["x", "y", "z", "w"][component])
                     };
-                    values.push(Value { node: node.clone(), label: label.clone(), output, group });
+                    values.push(Value {
+                        node: node.clone(),
+                        label: label.clone(),
+                        socket: socket.clone(),
+                        output,
+                        group,
+                    });
                 }
                 group += 1;
             }
         }
+        let numbers = Numbers { document, shader: &shader };
+        let inputs = program.inputs().iter().map(|slot| numbers.input(slot)).collect();
         let mut trace = Trace {
-            document,
-            flat,
+            name: &document.name,
+            flat: flat.document,
+            library: flat.library,
             program,
+            inputs,
             values,
-            block: None,
-            parameters: Vec::new(),
             textures: Vec::new(),
             samplers: Vec::new(),
         };
@@ -110,20 +129,6 @@ impl<'d> Trace<'d> {
         for binding in &shader.reflection.bindings {
             let place = (binding.group, binding.binding);
             match &binding.resource {
-                Resource::Uniform(block) => {
-                    for parameter in &shader.reflection.parameters {
-                        let Some(member) = block.members.iter().find(|member| member.name == parameter.name) else {
-                            continue;
-                        };
-                        self.parameters.push(Parameter {
-                            name: parameter.name.clone(),
-                            source: member.source.clone(),
-                            default: parameter.default.clone(),
-                            range: parameter.range.filter(|r| r.iter().all(|x| x.is_finite())).unwrap_or([0.0, 1.0]),
-                        });
-                    }
-                    self.block = Some((place, block.clone()));
-                }
                 Resource::Texture(TextureSource::Image(reference)) => {
                     let image = scene.images.get(&material.directory, reference);
                     let texture = image.and_then(|image| halfvector_raster::texture(image, reference.color_space));
@@ -133,62 +138,95 @@ impl<'d> Trace<'d> {
                     };
                     self.textures.push((place, texture.ok_or_else(missing)?));
                 }
-                // A material alone reads no environment.
-                Resource::Texture(_) => {}
+                // The parameters are an argument, and a material alone reads no environment.
+                Resource::Uniform(_) | Resource::Texture(_) => {}
                 Resource::Sampler(source) => self.samplers.push((place, halfvector_raster::sampler(source))),
             }
         }
         Ok(())
     }
 
-    /// The contexts' scalars: `context.uv0.x`.
-    pub(super) fn inputs(&self) -> impl Iterator<Item = &str> {
-        self.program.inputs().iter().map(|slot| slot.name.as_str())
-    }
-
-    /// Every value at every point. `contexts` has a column for each of [`Trace::inputs`], `settings` numbers for each
-    /// parameter.
-    pub(super) fn run<F: Float>(
-        &self,
-        contexts: &[Vec<f64>],
-        points: usize,
-        settings: &[Vec<f32>],
-    ) -> Result<Vec<Vec<f64>>, StabilityError> {
-        let failed = |why: String| StabilityError::Run { material: self.document.name.clone(), why };
-        let bytes = match &self.block {
-            Some((_, block)) => block
-                .pack(|source, numbers| match self.parameters.iter().position(|p| p.source == *source) {
-                    Some(parameter) => numbers.extend(&settings[parameter]),
-                    None => fill_input(self.document, Library::standard(), block, source, numbers),
-                })
-                .map_err(|error| failed(error.to_string()))?,
-            None => Vec::new(),
-        };
+    /// Every value at every point.
+    pub(super) fn run<F: Float>(&self, points: &Points) -> Result<Vec<Vec<f64>>, StabilityError> {
         let mut resources = Resources::default();
-        if let Some(((group, binding), _)) = &self.block {
-            resources = resources.buffer(*group, *binding, &bytes);
-        }
         for ((group, binding), texture) in &self.textures {
             resources = resources.texture(*group, *binding, texture);
         }
         for ((group, binding), sampler) in &self.samplers {
             resources = resources.sampler(*group, *binding, *sampler);
         }
-        let columns: Vec<Vec<F>> =
-            contexts.iter().map(|column| column.iter().map(|x| F::from_f64(*x)).collect()).collect();
-        let columns: Vec<Column<'_, F>> = columns.iter().map(|column| Column::Float(column)).collect();
+        let (mut floats, mut words) = (Vec::new(), Vec::new());
+        for (input, column) in self.inputs.iter().zip(&points.columns) {
+            match input.number {
+                Number::Float => floats.push(column.iter().map(|x| F::from_f64(*x)).collect::<Vec<F>>()),
+                Number::Signed => words.push(column.iter().map(|x| (*x as i32).cast_unsigned()).collect::<Vec<u32>>()),
+                Number::Unsigned => words.push(column.iter().map(|x| *x as u32).collect()),
+            }
+        }
+        let (mut floats_left, mut words_left) = (floats.iter(), words.iter());
+        let columns: Vec<Column<'_, F>> = self
+            .inputs
+            .iter()
+            .filter_map(|input| match input.number {
+                Number::Float => floats_left.next().map(|column| Column::Float(column)),
+                Number::Signed | Number::Unsigned => words_left.next().map(|column| Column::Word(column)),
+            })
+            .collect();
         let mut outputs = Outputs::default();
         self.program
-            .run(&columns, points, &mut outputs, &resources, Derivatives::Zero, Limits::default())
-            .map_err(|error| failed(error.to_string()))?;
+            .run(&columns, points.count, &mut outputs, &resources, Derivatives::Zero, Limits::default())
+            .map_err(|error| StabilityError::Run { material: self.name.to_owned(), why: error.to_string() })?;
         Ok(outputs.columns.iter().map(|column| column.to_f64()).collect())
+    }
+}
+
+/// What a program's arguments stand for.
+struct Numbers<'s> {
+    document: &'s Document,
+    shader: &'s Shader,
+}
+
+impl Numbers<'_> {
+    /// An argument's scalar: `context.uv0.x`, `parameters.tint.y`.
+    fn input(&self, slot: &Slot) -> Input {
+        let number = match slot.scalar.kind {
+            ScalarKind::Sint => Number::Signed,
+            ScalarKind::Uint | ScalarKind::Bool => Number::Unsigned,
+            _ => Number::Float,
+        };
+        let (argument, name) = slot.name.split_once('.').unwrap_or(("", &slot.name));
+        let way: Vec<&str> = name.split('.').collect();
+        let (first, way) = way.split_first().map_or((name, &way[..]), |(first, way)| (*first, way));
+        let source = if argument == PARAMETERS { self.member(first, way) } else { Source::of_context(first, way) };
+        Input { name: name.to_owned(), source, number }
+    }
+
+    /// A member of the parameters: what is exposed has a range, every other number is the document's.
+    fn member(&self, name: &str, way: &[&str]) -> Source {
+        let component = way.first().and_then(|part| "xyzw".find(part)).unwrap_or_default();
+        let reflection = &self.shader.reflection;
+        if let Some(parameter) = reflection.parameters.iter().find(|parameter| parameter.name == name) {
+            let default = f64::from(parameter.default.get(component).copied().unwrap_or_default());
+            let is_finite = |range: &[f32; 2]| range.iter().all(|x| x.is_finite());
+            let [from, to] = parameter.range.filter(is_finite).unwrap_or([0.0, 1.0]);
+            return Source::Parameter { default, from: f64::from(from), to: f64::from(to) };
+        }
+        let mut numbers = Vec::new();
+        for binding in &reflection.bindings {
+            if let Resource::Uniform(block) = &binding.resource
+                && let Some(member) = block.members.iter().find(|member| member.name == name)
+            {
+                fill_input(self.document, Library::standard(), block, &member.source, &mut numbers);
+            }
+        }
+        Source::Fixed(numbers.get(component).copied().map_or(0.0, f64::from))
     }
 }
 
 /// The values that `material` names, in order, with the outputs that are floats.
 fn named(shader: &Shader) -> Result<Vec<Named>, String> {
     let module = naga::front::wgsl::parse_str(&shader.wgsl).map_err(|error| error.message().to_owned())?;
-    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+    let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
         .validate(&module)
         .map_err(|error| error.as_inner().to_string())?;
     let (handle, function) = module
@@ -223,13 +261,26 @@ fn named(shader: &Shader) -> Result<Vec<Named>, String> {
     Ok(all.into_values().collect())
 }
 
-/// The shader with a function `trace` beside `material`: the same lines, and all outputs as result.
+/// The variable that holds the exposed parameters.
+const PARAMETERS: &str = "parameters";
+
+/// The shader with a function `trace` beside `material`: the same lines, and all outputs as result. Its argument `parameters`
+/// hides the variable of that name, which only `material` reads.
 fn with_trace(shader: &Shader, named: &[Named]) -> Result<String, String> {
     let wgsl = &shader.wgsl;
     let start = wgsl.find("fn material(").ok_or_else(|| "it has no function `material`".to_owned())?;
     let end = start + wgsl[start..].find("    return ").ok_or_else(|| "`material` returns nothing".to_owned())?;
     let (head, body) = wgsl[start..end].split_once('\n').unwrap_or_default();
-    let argument = if head.contains("context") { "context: Context" } else { "" };
+    let mut arguments = Vec::new();
+    if head.contains("context") {
+        arguments.push("context: Context".to_owned());
+    }
+    let variable = format!("var<uniform> {PARAMETERS}: ");
+    if let Some((_, rest)) = wgsl.split_once(&variable) {
+        let (ty, _) = rest.split_once(';').unwrap_or_default();
+        arguments.push(format!("{PARAMETERS}: {ty}"));
+    }
+    let arguments = arguments.join(", ");
     let (mut members, mut results) = (String::new(), Vec::new());
     for (_, text, components) in named.iter().flat_map(|named| &named.outputs) {
         let ty = ["f32", "vec2f", "vec3f", "vec4f"][components - 1];
@@ -242,6 +293,6 @@ fn with_trace(shader: &Shader, named: &[Named]) -> Result<String, String> {
     }
     let results = results.join(", ");
     Ok(format!(
-        "{wgsl}\nstruct Trace {{ {members} }}\nfn trace({argument}) -> Trace {{\n{body}    return Trace({results});\n}}\n"
+        "{wgsl}\nstruct Trace {{ {members} }}\nfn trace({arguments}) -> Trace {{\n{body}    return Trace({results});\n}}\n"
     ))
 }
