@@ -11,12 +11,12 @@ use halfvector_codegen::{CodegenError, Origin, Shader};
 use halfvector_graph::check::node_label;
 use halfvector_graph::document::{Document, NodeId};
 use halfvector_graph::flatten::flatten;
-use halfvector_graph::library::Library;
+use halfvector_graph::library::{CAPABILITIES, Library};
 use halfvector_interp::{
     Column, Derivatives, Entry, Float, Limits, Outputs, Program, Resources, Sampler, Slot, Texture,
 };
 use halfvector_scene::{Scene, SceneMaterial};
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::valid::{ValidationFlags, Validator};
 use naga::{ScalarKind, TypeInner};
 
 use crate::stability::StabilityError;
