@@ -485,6 +485,21 @@ mod tests {
         assert_eq!(found(None, None), (Cost::Instructions, Cost::Instructions, "strips".to_owned()));
     }
 
+    /// Of what is nearly as fast as the fastest the sentence names the one that errs least.
+    #[test]
+    fn a_finding_names_a_method_worth_taking() {
+        let rows = vec![
+            row("good", "one; relative", 0.001, 3.0),
+            row("fair", "one; relative", 0.1, 1.04),
+            row("poor", "one; relative", 0.8, 1.0),
+        ];
+        let found = comparisons(&rows);
+        assert_eq!(
+            crate::words::finding(&found[0]),
+            "`good` errs least, 0.10 %; `fair` is 2.9 times as fast but errs 10 %"
+        );
+    }
+
     /// Where no method is good enough, no budget pays for the last hundredth of an error.
     #[test]
     fn beyond_every_limit_all_budgets_choose_alike() {

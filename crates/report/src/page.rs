@@ -106,7 +106,7 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
          method whose rms error is at most {}, <b>desktop</b> the cheapest within {}, <b>film</b> the cheapest of \
          those within 5 % of the least error. Where no method keeps a limit, the one for film stands in brackets. What is weighed is the time \
          on the device{} where every method has one, else the time of one element of a batch or of one call, else memory or \
-         instructions; the figure says which. Of methods that take as long, within their spread, it is the more accurate. Only what \
+         instructions; the figure says which. Of methods that take as long, within their spread (20 % at most), it is the more accurate. Only what \
          <code>--method</code> knows is recommended; where the library alone has something better it is named below.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
          <th>mobile</th><th>desktop</th><th>film</th></tr></thead><tbody>\n",
         limit(Budget::Mobile),
@@ -371,7 +371,7 @@ fn foot(report: &Report, page: &mut String) {
          nanoseconds.</p>\n<p><b>Instructions</b> are those of \
          the whole fragment stage of one plain shader with the method, in SPIR-V as naga writes it, before a driver optimises it; \
          called functions count where they are called. What a method adds is its difference from another method.</p>{device}\n<p><b>The front</b>: a method \
-         is marked when no other on the same inputs is cheaper and at least as accurate. Times within their spread count as \
+         is marked when no other on the same inputs is cheaper and at least as accurate. Times within their spread, 20 % at most, count as \
          alike.</p>\n<p>The same figures stand in <code>report.json</code> and in one CSV file for each part.</p>\n</section>\n\
          </main>\n<footer>Made by <code>halfvector report</code> on {}.</footer>\n<script>\n{SORT}</script>\n</body>\n</html>\n",
         escaped(&report.machine),

@@ -70,7 +70,7 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
          cheapest method whose rms error is within {} % ({}° for angles) for **mobile** and within {} % ({}°) for **desktop**; the \
          cheapest of those within 5 % of the least error for **film**. In brackets: no method keeps the limit, this is the one for film. \
          What is weighed is the time on the device{} where every method has one, else the cost in the tables below; of methods that take \
-         as long, within their spread, it is the more accurate. Only what `--method` knows is recommended, and what the library alone \
+         as long, within their spread (20 % at most), it is the more accurate. Only what `--method` knows is recommended, and what the library alone \
          has stands behind it.\n\n\
          | term | inputs | mobile | desktop | film |\n|---|---|---|---|---|\n",
         report.machine,

@@ -76,6 +76,9 @@ pub fn cost(x: f64, kind: Cost) -> String {
     }
 }
 
+/// Times are called alike up to this ratio where one of them is named as fast.
+const ALIKE: f64 = 1.15;
+
 /// What a comparison shows, in one sentence without a full stop; names of methods stand in backticks.
 pub fn finding(comparison: &Comparison<'_>) -> String {
     let text = |entry: &Entry<'_>| error(entry.rms, comparison.unit);
@@ -88,10 +91,17 @@ pub fn finding(comparison: &Comparison<'_>) -> String {
     } else {
         format!("errs {}, next to the least there is", text(best))
     };
-    let front = comparison.entries.iter().filter(|entry| entry.front);
-    let cheapest = front.min_by(|a, b| a.cost.total_cmp(&b.cost)).unwrap_or(best);
+    let front = || comparison.entries.iter().filter(|entry| entry.front);
+    let least = front().map(|entry| entry.cost).fold(f64::INFINITY, f64::min);
+    // Of those that take as long as the fastest, nearly, the one that errs least is worth a sentence.
+    let alike = if comparison.cost.is_time() { ALIKE } else { 1.0 };
+    let fast = front().filter(|entry| entry.cost <= alike * least);
+    let cheapest = fast.min_by(|a, b| a.rms.total_cmp(&b.rms)).unwrap_or(best);
     if std::ptr::eq(cheapest, best) {
-        return format!("`{name}` {errs}, and nothing is cheaper");
+        // Times that spread over each other are alike, whichever number is smaller.
+        let beyond =
+            if comparison.entries.iter().any(|entry| entry.cost < best.cost) { " beyond the spread" } else { "" };
+        return format!("`{name}` {errs}, and nothing is cheaper{beyond}");
     }
     let ratio = best.cost / cheapest.cost;
     let saves = match comparison.cost {

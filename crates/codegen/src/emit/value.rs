@@ -9,6 +9,8 @@ pub(crate) fn literal(literal: &Literal) -> String {
     let components = literal.components();
     match literal.ty {
         Type::Bool => (components[0] != 0.0).to_string(),
+        // Its digits alone are no i32.
+        Type::I32 if components[0] as i32 == i32::MIN => "i32(-2147483648)".to_owned(),
         Type::I32 => format!("{}i", components[0] as i32),
         Type::F32 => number(components[0]),
         ty if components.iter().all(|c| c.to_bits() == components[0].to_bits()) => {

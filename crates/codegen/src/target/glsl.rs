@@ -4,6 +4,7 @@
 //! bindings), so joining loses nothing; the JSON names each joined sampler and what it is made of.
 
 use naga::back::glsl;
+use naga::{Expression, MathFunction};
 use serde_json::{Map, Value, json as value};
 
 use super::{ExportError, OutputFile, Source, Target, file, json, same};
@@ -57,6 +58,13 @@ fn write(
     let (mut files, mut details) = (Vec::new(), Map::new());
     for (stage, entry_point, ending) in Source::STAGES {
         let alone = source.stage(stage, target)?;
+        if matches!(version, glsl::Version::Embedded { .. })
+            && let Some((function, what)) = missing_in_es(&alone.module)
+        {
+            let message =
+                format!("GLSL ES 3.00 has no `{what}`, which `{function}` calls: leave it out, or take another target");
+            return Err(ExportError::Backend { target, message });
+        }
         let pipeline = glsl::PipelineOptions { shader_stage: stage, entry_point: entry_point.into(), multiview: None };
         let mut text = String::new();
         let policies = naga::proc::BoundsCheckPolicies::default();
@@ -68,6 +76,42 @@ fn write(
     }
     files.push(json::reflection(source, name, target, Some(("glsl", Value::Object(details)))));
     Ok(files)
+}
+
+/// The first function that calls a built-in which GLSL has in later versions only, and that built-in as WGSL names it. naga
+/// writes some of these all the same.
+fn missing_in_es(module: &naga::Module) -> Option<(&str, &'static str)> {
+    let entries = module.entry_points.iter().map(|entry| &entry.function);
+    let functions = module.functions.iter().map(|(_, function)| function).chain(entries);
+    functions.into_iter().find_map(|function| {
+        let missing = function.expressions.iter().find_map(|(_, expression)| match expression {
+            Expression::Math { fun, .. } => later_than_es(*fun),
+            _ => None,
+        });
+        missing.map(|what| (function.name.as_deref().unwrap_or("the shader"), what))
+    })
+}
+
+fn later_than_es(function: MathFunction) -> Option<&'static str> {
+    Some(match function {
+        MathFunction::Ldexp => "ldexp",
+        MathFunction::Frexp => "frexp",
+        MathFunction::CountOneBits => "countOneBits",
+        MathFunction::ReverseBits => "reverseBits",
+        MathFunction::ExtractBits => "extractBits",
+        MathFunction::InsertBits => "insertBits",
+        MathFunction::FirstLeadingBit => "firstLeadingBit",
+        MathFunction::FirstTrailingBit => "firstTrailingBit",
+        MathFunction::CountLeadingZeros => "countLeadingZeros",
+        MathFunction::CountTrailingZeros => "countTrailingZeros",
+        MathFunction::Pack4x8snorm => "pack4x8snorm",
+        MathFunction::Pack4x8unorm => "pack4x8unorm",
+        MathFunction::Dot4U8Packed => "dot4U8Packed",
+        MathFunction::Dot4I8Packed => "dot4I8Packed",
+        MathFunction::Unpack4xU8 => "unpack4xU8",
+        MathFunction::Unpack4xI8 => "unpack4xI8",
+        _ => return None,
+    })
 }
 
 /// The text with the comment: after the version, which GLSL ES wants in the first line.

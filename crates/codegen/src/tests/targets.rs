@@ -109,6 +109,29 @@ fn every_target_is_accepted() {
     }
 }
 
+/// What GLSL ES lacks is told by name, where naga would write it all the same.
+#[test]
+fn what_es_lacks_is_refused() {
+    for (call, what) in [("countOneBits(u32(x))", "countOneBits"), ("pack4x8unorm(vec4f(x))", "pack4x8unorm")] {
+        let mut document =
+            material("", r#""n": {"node": "custom/f"}"#, r#"{"from": "n.out", "to": "surface.perceptual_roughness"}"#);
+        let text = format!(
+            "/// F\n///\n/// Bits.\n/// @node custom/f\n/// - uv: where [context uv0]\nfn f(uv: vec2f) -> f32 {{\n    let x = uv.x;\n    return f32({call});\n}}\n"
+        );
+        document.functions.insert("f".into(), text);
+        for target in TARGETS {
+            let shader = exported(&document, &target.needs(sun()));
+            match (target.name, export(&shader, target, "bits")) {
+                ("glsl-es", Err(error)) => {
+                    let error = error.to_string();
+                    assert!(error.contains(&format!("no `{what}`")) && error.contains("node_custom_f"), "{error}");
+                }
+                (name, outcome) => assert!(outcome.is_ok() && name != "glsl-es", "{name}: {call}"),
+            }
+        }
+    }
+}
+
 #[test]
 fn file_names_are_the_contracts() {
     let shader = exported(&material("", "", ""), &sun());

@@ -205,6 +205,11 @@ fn refuse_items(text: &str, items: &[Item]) -> Result<(), CodeError> {
                 "`T` is the library's name for any type; choose another name",
             ));
         }
+        // A type of another meaning would say of a counter what it is not.
+        if is_of_wgsl(&item.name) {
+            let message = format!("`{}` is a type of WGSL; choose another name", item.name);
+            return Err(error_at(text, item.name_range.start, message));
+        }
         if item.name == SURFACE_STRUCT {
             return Err(error_at(
                 text,
@@ -217,6 +222,13 @@ fn refuse_items(text: &str, items: &[Item]) -> Result<(), CodeError> {
         }
     }
     Ok(())
+}
+
+/// Whether it is the name of one of WGSL's own types.
+fn is_of_wgsl(name: &str) -> bool {
+    let numbered = |head: &str| name.strip_prefix(head).is_some_and(|rest| rest.starts_with(['2', '3', '4']));
+    matches!(name, "bool" | "f16" | "f32" | "f64" | "i32" | "i64" | "u32" | "u64" | "array" | "atomic" | "ptr")
+        || ["vec", "mat"].into_iter().any(numbered)
 }
 
 /// Refuses what reaches beyond arguments and results, and what need not end.

@@ -206,24 +206,27 @@ fn for_turns(text: &str, code: &[Token], at: usize, constants: &HashMap<usize, u
     wrong(at, SHAPE)
 }
 
-/// Whether the name at token `at` is declared again, assigned to, or its address is taken.
+/// Whether the name at token `at` is declared again, assigned to, or its address is taken. Brackets around it hide nothing.
 fn changes(text: &str, code: &[Token], at: usize) -> bool {
     let word = |i: usize| code.get(i).map_or("", |token| token.text(text));
-    let before = |back: usize| at.checked_sub(back).map_or("", word);
-    if before(1) == "." {
+    let before = |i: usize| i.checked_sub(1).map_or("", word);
+    if before(at) == "." {
         return false;
+    }
+    let declared = matches!(before(at), "var" | "let" | "const");
+    let (mut first, mut last) = (at, at);
+    while before(first) == "(" && word(last + 1) == ")" {
+        (first, last) = (first - 1, last + 1);
     }
     let is_operand = |i: Option<&Token>| {
         i.is_some_and(|token| token.kind != TokenKind::Punctuation || matches!(token.text(text), ")" | "]"))
             && !matches!(i.map_or("", |token| token.text(text)), "return")
     };
-    let address = before(1) == "&" && !is_operand(at.checked_sub(2).and_then(|i| code.get(i)));
-    let declared = matches!(before(1), "var" | "let" | "const");
-    let after = (word(at + 1), word(at + 2), word(at + 3));
-    let assigned = match after {
+    let address = before(first) == "&" && !is_operand(first.checked_sub(2).and_then(|i| code.get(i)));
+    let assigned = match (word(last + 1), word(last + 2), word(last + 3)) {
         ("=", next, _) => next != "=",
         ("+" | "-" | "*" | "/" | "%" | "&" | "|" | "^", "=", _) => true,
-        ("+", "+", _) | ("-", "-", _) => code[at + 2].start == code[at + 1].end,
+        ("+", "+", _) | ("-", "-", _) => code[last + 2].start == code[last + 1].end,
         ("<", "<", "=") | (">", ">", "=") => true,
         _ => false,
     };

@@ -178,6 +178,10 @@ fn what_need_not_end_is_refused() {
         ("for (var i = 0; i <= 9; i++) { i = 0; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { i -= 1; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { i--; }\nreturn x;", "counter is changed"),
+        ("for (var i = 0; i < 10; i++) { (i) = 0; }\nreturn x;", "counter is changed"),
+        ("for (var i = 0; i < 10; i++) { ((i))--; }\nreturn x;", "counter is changed"),
+        ("for (var i = 0; i < 10; i++) { (\n  i // here\n) -= 1; }\nreturn x;", "counter is changed"),
+        ("for (var i = 0; i < 10; i++) { let p = & ((i)); *p = 0; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { let p = &i; *p = 0; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { if x > 0.0 { i <<= 0u; } }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 1000000; i++) { }\nreturn x;", "turns of loops and calls"),
@@ -192,6 +196,8 @@ fn what_need_not_end_is_refused() {
     ] {
         refused(&text(body, "const N = 8;\n"), part);
     }
+    let shadows = "alias i32 = u32;\n";
+    refused(&text("for (var j: i32 = 5; j >= 0; j--) { }\nreturn x;", shadows), "`i32` is a type of WGSL");
     // Two to the thirtieth calls, without a loop.
     let mut doubling = String::from("fn g0(x: f32) -> f32 { return x; }\n");
     for i in 1..30 {
@@ -199,7 +205,7 @@ fn what_need_not_end_is_refused() {
     }
     refused(&text("return g29(x);", &doubling), "turns of loops and calls");
     // What counts is not refused.
-    let counted = "var s = 0.0;\nfor (var i: u32 = 1u; i <= 8u; i += 2u) { let a = i & 3u; if i == 2u { continue; } s += f32(a - i); }\nfor (var j = 0; j < 4; j++) { s += x; }\nreturn s;";
+    let counted = "var s = 0.0;\nfor (var i: u32 = 1u; i <= 8u; i += 2u) { let a = (i) & 3u; if (i) == 7u { s += f32((i) + a) - (f32(i)); } if i == 2u { continue; } s += f32(a - i); }\nfor (var j = 0; j < 4; j++) { s += x; }\nreturn s;";
     assert!(read_function("test", &text(counted, "")).is_ok(), "{:?}", read_function("test", &text(counted, "")));
     for (head, turns) in [
         ("var j = -1; j <= 1; j++", 3),
