@@ -146,3 +146,33 @@ fn line_distance(p: vec2f, a: vec2f, b: vec2f, width: f32) -> f32 {
     let along = clamp(dot(p - a, way) / max(dot(way, way), DIVISOR_FLOOR), 0.0, 1.0);
     return distance(p, a + along * way) - 0.5 * max(width, 0.0);
 }
+
+/// Cloverleaf
+///
+/// Four circles around a middle that all touch it: ornaments, clover, quatrefoils. The mask's edge is as wide as the pixel; a leaf smaller than the pixel
+/// covers its part of it. Inside the distance is that to the nearest circle.
+/// @node procedural/cloverleaf   @also quatrefoil, clover, ornament, four circles, sdf
+/// - uv: coordinates [context uv0]
+/// - center: of the leaf [0.5,0.5; 0..1]
+/// - radius: from the middle to the tips [0.3; 0..0.5]
+/// - softness: width of the edge [0; 0..0.5]
+/// @vertex node_procedural_cloverleaf_vertex
+fn node_procedural_cloverleaf(uv: vec2f, center: vec2f, radius: f32, softness: f32) -> OutlineOutputs {
+    let d = cloverleaf_distance(uv - center, radius);
+    // Half the side of the square of the same area: circles of half the radius, less what they share, cover (pi/2 + 1) radius^2.
+    let half_side = vec2f(0.8017 * radius);
+    return OutlineOutputs(outline_share(d, softness, uv - center, half_side, sqrt(squared_footprint2(uv))), d);
+}
+
+/// The vertex stage has no pixels: the pattern at the point.
+fn node_procedural_cloverleaf_vertex(uv: vec2f, center: vec2f, radius: f32, softness: f32) -> OutlineOutputs {
+    let d = cloverleaf_distance(uv - center, radius);
+    return OutlineOutputs(inside_share(d, softness, 0.0), d);
+}
+
+/// Signed distance to the four circles about the origin: by symmetry to the one on the nearer axis.
+fn cloverleaf_distance(p: vec2f, radius: f32) -> f32 {
+    let q = abs(p);
+    let r = 0.5 * max(radius, 0.0);
+    return length(vec2f(max(q.x, q.y) - r, min(q.x, q.y))) - r;
+}

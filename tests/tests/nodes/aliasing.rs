@@ -21,6 +21,7 @@ const NO_AVERAGE: &[(&str, &[usize])] = &[
     ("procedural/rounded_box", &[1]),
     ("procedural/polygon", &[1]),
     ("procedural/circle", &[1]),
+    ("procedural/cloverleaf", &[1]),
     ("procedural/line", &[1]),
 ];
 
