@@ -2,9 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::comparison::{Budget, Choice, Comparison, Cost, Entry, Unit, comparisons};
+use crate::choice::Choice;
+use crate::comparison::{Comparison, Entry, comparisons};
+use crate::cost::Cost;
 use crate::part::shaders;
 use crate::plot::{dark_rules, escaped, scatter};
+use crate::unit::{Budget, Unit};
 use crate::{PARTS, Report, Row, terms, words};
 
 mod tables;

@@ -7,7 +7,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::comparison::{Budget, Comparison, Cost, Entry, Unit};
+use crate::comparison::{Comparison, Entry};
+use crate::cost::Cost;
+use crate::unit::{Budget, Unit};
 use crate::words;
 
 /// Size of a plot [px].

@@ -5,8 +5,10 @@ use std::fmt::Write;
 
 use halfvector_graph::method::TERMS;
 
-use crate::comparison::{Budget, Comparison, Cost, Entry, Unit, comparisons};
+use crate::comparison::{Comparison, Entry, comparisons};
+use crate::cost::Cost;
 use crate::plot::{alone, scatter};
+use crate::unit::{Budget, Unit};
 use crate::{Report, Row, words};
 
 /// Where the run stands that everything here is made of.

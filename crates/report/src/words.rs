@@ -1,7 +1,9 @@
 //! Numbers and findings in words: what a plot shows, said from its data.
 
 use crate::Row;
-use crate::comparison::{Budget, Comparison, Cost, Entry, Unit};
+use crate::comparison::{Comparison, Entry};
+use crate::cost::Cost;
+use crate::unit::{Budget, Unit};
 
 /// A number with two digits that count: 0.013, 42, 5.1×10⁻⁸.
 pub fn number(x: f64) -> String {
@@ -108,6 +110,7 @@ pub fn finding(comparison: &Comparison<'_>) -> String {
         kind if !kind.is_time() => {
             format!("takes {} instead of {}", cost(cheapest.cost, kind), cost(best.cost, kind))
         }
+        _ if ratio < 1.1 => format!("takes {:.0} % less time", (100.0 * (1.0 - 1.0 / ratio)).max(1.0)),
         _ => format!("is {} times as fast", if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") }),
     };
     format!("`{name}` {errs}; `{}` {saves} but errs {}", cheapest.row.method, text(cheapest))
@@ -240,5 +243,21 @@ mod tests {
         let many = ["a: x; deg", "b: x; deg", "c: x; deg", "d: x; deg", "e: x; deg", "f: x; deg"];
         assert_eq!(inputs(&many), "6 cases from a to f (the worst of them): x");
         assert_eq!(against("all; angle in degrees"), "angle in degrees");
+    }
+
+    /// Of what is nearly as fast as the fastest the sentence names the one that errs least.
+    #[test]
+    fn a_finding_names_a_method_worth_taking() {
+        let row = |method: &str, error, cost| Row {
+            error_rms: Some(error),
+            cost_ns: Some(cost),
+            ..Row::new("d", method, "one; relative")
+        };
+        let rows = [row("good", 0.001, 3.0), row("fair", 0.1, 1.04), row("poor", 0.8, 1.0)];
+        let found = |rows: &[Row]| finding(&crate::comparison::comparisons(rows)[0]);
+        assert_eq!(found(&rows), "`good` errs least, 0.10 %; `fair` is 2.9 times as fast but errs 10 %");
+        // Nobody is 1.0 times as fast.
+        let rows = [row("good", 0.001, 1.04), row("poor", 0.8, 1.0)];
+        assert_eq!(found(&rows), "`good` errs least, 0.10 %; `poor` takes 4 % less time but errs 80 %");
     }
 }

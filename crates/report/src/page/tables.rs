@@ -5,9 +5,10 @@ use std::fmt::Write;
 
 use super::{cell, code, tags};
 use crate::Row;
-use crate::comparison::{Cost, Unit};
+use crate::cost::Cost;
 use crate::plot::escaped;
 use crate::timing::median;
+use crate::unit::Unit;
 use crate::words;
 
 /// A card with rows of one term.
