@@ -68,8 +68,8 @@ impl Cost {
             }
             Cost::Bytes => "Memory: what the method reads, counted and not timed.",
             Cost::Device => {
-                "Time: a pixel of a whole fragment stage with the method, by the device's timestamps; the shortest of turns \
-                 that lie apart."
+                "Time: a pixel of a whole fragment stage with the method, by the device's timestamps; the shortest of several passes, of five \
+                 sittings the fastest."
             }
             Cost::Instructions => {
                 "Instructions: SPIR-V of a whole fragment stage with the method, counted and not timed."

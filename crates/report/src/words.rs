@@ -110,7 +110,6 @@ pub fn finding(comparison: &Comparison<'_>) -> String {
         kind if !kind.is_time() => {
             format!("takes {} instead of {}", cost(cheapest.cost, kind), cost(best.cost, kind))
         }
-        _ if ratio < 1.1 => format!("takes {:.0} % less time", (100.0 * (1.0 - 1.0 / ratio)).max(1.0)),
         _ => format!("is {} times as fast", if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") }),
     };
     format!("`{name}` {errs}; `{}` {saves} but errs {}", cheapest.row.method, text(cheapest))
@@ -258,6 +257,6 @@ mod tests {
         assert_eq!(found(&rows), "`good` errs least, 0.10 %; `fair` is 2.9 times as fast but errs 10 %");
         // Nobody is 1.0 times as fast.
         let rows = [row("good", 0.001, 1.04), row("poor", 0.8, 1.0)];
-        assert_eq!(found(&rows), "`good` errs least, 0.10 %; `poor` takes 4 % less time but errs 80 %");
+        assert_eq!(found(&rows), "`good` errs least, 0.10 %, and nothing is cheaper beyond the spread");
     }
 }

@@ -20,25 +20,37 @@ use rayon::prelude::*;
 
 /// Measures the part.
 pub fn rows(run: &Run<'_>) -> Vec<Row> {
-    let effort = run.effort();
     let mut rows = Vec::new();
     for (first, name, environment) in [(0.0, "studio", studio()), (0.5, "sky", sky())] {
-        let Source::Equirect(map) = &environment.source else { continue };
-        let truth = Quadrature::new(map);
-        rows.extend(levels(run, first, name, &environment, &truth));
-        run.keep(&rows, first + 0.35);
-        // The largest bakes are made once for all that read them.
-        let baked = |level_map| bake(&environment, &BakeOptions { level_map, ..BakeOptions::default() });
-        let maps = [baked(LevelMap::Geometric), baked(LevelMap::Linear), baked(LevelMap::Report)];
-        run.at(first + 0.4);
-        rows.extend(seen(effort, name, &maps, &truth));
-        run.keep(&rows, first + 0.42);
-        rows.extend(diffuse(effort, name, &environment, &maps[2], &truth));
-        run.keep(&rows, first + 0.45);
-        rows.extend(split_sum::rows(effort, name, &environment, &maps[0]));
-        run.keep(&rows, first + 0.5);
+        under(run, first, name, &environment, &mut rows);
     }
     rows
+}
+
+/// The rows of one of the two environments, which take half the time.
+pub fn rows_under_sky(run: &Run<'_>) -> Vec<Row> {
+    let mut rows = Vec::new();
+    under(run, 0.0, "sky", &sky(), &mut rows);
+    rows
+}
+
+/// Adds the rows of an environment, the part's half from `first` on.
+fn under(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment, rows: &mut Vec<Row>) {
+    let effort = run.effort();
+    let Source::Equirect(map) = &environment.source else { return };
+    let truth = Quadrature::new(map);
+    rows.extend(levels(run, first, name, environment, &truth));
+    run.keep(rows, first + 0.35);
+    // The largest bakes are made once for all that read them.
+    let baked = |level_map| bake(environment, &BakeOptions { level_map, ..BakeOptions::default() });
+    let maps = [baked(LevelMap::Geometric), baked(LevelMap::Linear), baked(LevelMap::Report)];
+    run.at(first + 0.4);
+    rows.extend(seen(effort, name, &maps, &truth));
+    run.keep(rows, first + 0.42);
+    rows.extend(diffuse(effort, name, environment, &maps[2], &truth));
+    run.keep(rows, first + 0.45);
+    rows.extend(split_sum::rows(effort, name, environment, &maps[0]));
+    run.keep(rows, first + 0.5);
 }
 
 /// Relative error of a colour, each channel against at least a thousandth of the mean radiance.

@@ -39,7 +39,12 @@ const SAMPLES: u32 = 4;
 /// Measures the part. What is not timed is made for several examples at once: truths, bakes, and first pictures, which wait for
 /// compilers. Then each picture is timed while nothing else runs.
 pub fn rows(run: &Run<'_>) -> Vec<Row> {
-    let (stations, kept, examples) = (stations(), Kept::default(), examples());
+    rows_of(&examples(), run)
+}
+
+/// The rows of some examples: their files.
+pub fn rows_of(examples: &[PathBuf], run: &Run<'_>) -> Vec<Row> {
+    let (stations, kept) = (stations(), Kept::default());
     let done = AtomicUsize::new(0);
     let one_done = || (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / (2 * examples.len()) as f64;
     let mut rows = Vec::new();
@@ -57,12 +62,6 @@ pub fn rows(run: &Run<'_>) -> Vec<Row> {
         }
     }
     rows
-}
-
-/// The rows that need no device of one example, as [`rows`] has them: the same on every run.
-pub fn cpu_row(path: &Path, effort: Effort) -> Option<Row> {
-    let example = Example::prepared(path, None, &Kept::default(), effort)?;
-    example.rows(None, effort).pop()
 }
 
 /// The documents of the folder itself, in order of name; those of folders within it are for other ends.
