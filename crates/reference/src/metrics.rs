@@ -3,8 +3,10 @@
 
 mod difference;
 mod flip;
+mod noise;
 mod palette;
 
 pub use difference::{Difference, Scores, difference, scores};
 pub use flip::{FLIP_PIXELS_PER_DEGREE, Flip, FlipOptions, flip_hdr, flip_ldr, flip_of_noise};
+pub use noise::{CleanSquares, NoisyError, noisy_error};
 pub use palette::magma;

@@ -1,18 +1,20 @@
 //! Speed against error: one [`Row`] per method and domain, measured on the machine that runs it.
 //!
-//! * [`PARTS`] lists what is measured; a part is one file of `part/`, a function from [`Effort`] to rows.
+//! * [`PARTS`] lists what is measured; a part is one file of `part/`, a function from a [`Run`] to rows.
 //! * Errors are against f64 truth and come out the same on every run. Times are medians of interleaved runs
 //!   ([`timing`]), to be read as ratios within one report.
-//! * [`Report`] is a run: rows, machine, day. [`comparison`] weighs methods against each other, [`compare`] holds two runs
-//!   against each other.
+//! * [`Report`] is a run: rows, machine, day. [`comparison`] weighs methods against each other, [`choice`] takes one for each
+//!   budget, [`compare`] holds two runs against each other.
 //! * [`page`] makes the HTML page, [`plot`] its plots, [`write`] the CSV.
 //!
 //! The crate writes no file and knows no command line.
 
+pub mod choice;
 pub mod compare;
 pub mod comparison;
+pub mod cost;
 pub mod error;
-mod noise;
+pub mod missing;
 pub mod page;
 pub mod part;
 pub mod placed;
@@ -22,11 +24,12 @@ mod report;
 mod row;
 mod terms;
 pub mod timing;
+pub mod unit;
 pub mod words;
 pub mod write;
 
 pub use comparison::mark_pareto;
-pub use part::{PARTS, Part};
+pub use part::{PARTS, Part, Run};
 pub use report::{Report, ReportError};
 pub use row::Row;
 

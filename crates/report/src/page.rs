@@ -2,9 +2,13 @@
 
 use std::fmt::Write;
 
-use crate::comparison::{Budget, Choice, Comparison, Cost, Entry, Unit, comparisons};
+use crate::choice::Choice;
+use crate::comparison::{Comparison, Entry, comparisons};
+use crate::cost::Cost;
 use crate::part::shaders;
 use crate::plot::{dark_rules, escaped, scatter};
+use crate::timing::median;
+use crate::unit::{Budget, Unit};
 use crate::{PARTS, Report, Row, terms, words};
 
 mod tables;
@@ -70,8 +74,12 @@ fn head(report: &Report, comparisons: &[Comparison<'_>], chapters: &[&str], page
         escaped(&report.machine),
         escaped(&report.date),
     );
-    let missing: Vec<&str> =
-        PARTS.iter().map(|part| part.name).filter(|name| !report.parts.iter().any(|part| part == name)).collect();
+    let is_whole = |name: &str| report.parts.iter().any(|part| part == name);
+    let missing = PARTS.iter().filter(|part| !is_whole(part.name)).map(|part| match report.rows_of(part.name).len() {
+        0 => part.name.to_owned(),
+        rows => format!("{} (interrupted; {rows} rows so far)", part.name),
+    });
+    let missing: Vec<String> = missing.collect();
     if !missing.is_empty() {
         let _ = writeln!(page, "<p class=\"muted\">Not measured in this run: {}.</p>", missing.join(", "));
     }
@@ -105,8 +113,10 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
         "<h2 id=\"choose\">What to choose</h2>\n<p>Made from the figures below by one rule. <b>Mobile</b> takes the cheapest \
          method whose rms error is at most {}, <b>desktop</b> the cheapest within {}, <b>film</b> the cheapest of \
          those within 5 % of the least error. Where no method keeps a limit, the one for film stands in brackets. What is weighed is the time \
-         on the device{} where every method has one, else the time of one element of a batch or of one call, else memory or \
-         instructions; the figure says which. Of methods that take as long, within their spread (20 % at most), it is the more accurate. Only what \
+         on the device{} where every method has one; where these times spread by more than 10 %, the instructions of the same shaders; else the \
+         time of one element of a batch or of one call, else memory; the figure says which. Of methods that take as long, within their spread \
+         (20 % at most), it is the more accurate; for mobile, of those that take up to 1.2 times as long as the cheapest, the one that reads the \
+         least memory, where it is known of all. Only what \
          <code>--method</code> knows is recommended; where the library alone has something better it is named below.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
          <th>mobile</th><th>desktop</th><th>film</th></tr></thead><tbody>\n",
         limit(Budget::Mobile),
@@ -153,11 +163,14 @@ fn device<'a>(comparisons: &[Comparison<'a>]) -> Option<&'a str> {
 
 /// Error and cost of a choice.
 fn figures(comparison: &Comparison<'_>, entry: &Entry<'_>, weighed: Cost) -> String {
-    let error = words::error(entry.rms, comparison.unit);
-    match (weighed, entry.row.gpu_ns) {
-        (Cost::Device, Some(time)) => format!("{error}, {} on the device", words::cost(time, Cost::Device)),
-        _ => format!("{error}, {}", words::cost(entry.cost, comparison.cost)),
-    }
+    let cost = match weighed.of(entry.row).filter(|_| weighed != comparison.cost) {
+        Some(cost) => words::cost(cost, weighed),
+        None => words::cost(entry.cost, comparison.cost),
+    };
+    let place = if weighed == Cost::Device { " on the device" } else { "" };
+    let memory = entry.row.bytes.filter(|_| weighed != Cost::Bytes && comparison.cost != Cost::Bytes);
+    let memory = memory.map_or(String::new(), |bytes| format!(", {}", words::cost(bytes as f64, Cost::Bytes)));
+    format!("{}, {cost}{place}{memory}", words::error(entry.rms, comparison.unit))
 }
 
 /// What there is to show of a term, below its heading; empty when it is told elsewhere.
@@ -177,7 +190,9 @@ fn chapter(term: &str, report: &Report, comparisons: &[Comparison<'_>]) -> Strin
         report.rows.iter().filter(|row| row.term == term && !row.is_rounding() && !drawn(row)).collect();
     // What the shader of a method costs stands in the tables of its errors already.
     let told = |row: &&Row| report.rows.iter().any(|other| shaders::tells_of(other, row));
-    let others: Vec<&Row> = others.into_iter().filter(|row| !told(row)).collect();
+    // What is only there to be held against, and has nothing to tell.
+    let is_truth = |row: &&Row| row.term == "precision" && row.error_max.is_none() && row.not_finite == Some(0);
+    let others: Vec<&Row> = others.into_iter().filter(|row| !told(row) && !is_truth(row)).collect();
     // What a shader alone costs has no error, and what has one makes a table of its own.
     let (wrong, counted): (Vec<&Row>, Vec<&Row>) = others.into_iter().partition(|row| !is_count(row));
     for rows in [wrong, counted].iter().filter(|rows| !rows.is_empty()) {
@@ -318,7 +333,10 @@ fn notes(row: &Row) -> String {
 fn tags(row: &Row) -> String {
     let tag = |there: bool, text: &str| if there { text.to_owned() } else { String::new() };
     tag(terms::is_default(&row.term, &row.method), "<span class=\"tag\">default</span>")
-        + &tag(terms::is_report(&row.term, &row.method), "<span class=\"tag plain\">the report's</span>")
+        + &tag(
+            terms::is_report(&row.term, &row.method),
+            "<span class=\"tag plain\" title=\"the form of the report that this project began with\">the report's</span>",
+        )
 }
 
 /// What f32 adds to each form.
@@ -343,7 +361,7 @@ fn rounding(report: &Report, page: &mut String) {
     );
     for row in rows {
         let _ = write!(page, "<tr><td>{}</td><td>{}</td>", escaped(&row.term), escaped(&row.method));
-        let error = |x| words::error(x, Unit::Relative);
+        let error = |x| words::error(x, Unit::of(&row.domain));
         page.push_str(&cell(row.error_rms, error));
         page.push_str(&cell(row.error_max, error));
         page.push_str(&cell(row.cost_ns, |x| words::cost(x, Cost::Call)));
@@ -354,12 +372,15 @@ fn rounding(report: &Report, page: &mut String) {
 
 fn foot(report: &Report, page: &mut String) {
     let device = report.rows.iter().find_map(|row| row.gpu.as_deref()).map_or(String::new(), |name| {
+        let spreads: Vec<f64> = report.rows.iter().filter_map(|row| row.gpu_spread).collect();
         format!(
-            "<p><b>Device pixel</b> is the time of that shader for one pixel by the timestamps of {}, the shortest of \
-             several turns.</p>",
-            escaped(name)
+            "<p><b>Device pixel</b> is the time of that shader for one pixel by the timestamps of {}: the shortest of several \
+             passes, in the fastest of five sittings. The sitting in the middle took {} % longer, in the median of all methods.</p>",
+            escaped(name),
+            words::number(100.0 * median(spreads))
         )
     });
+    let (words, nulls) = (glossary(), nulls(report));
     let _ = write!(
         page,
         "<h2 id=\"how\">How it is measured</h2>\n<section class=\"card\">\n<p><b>Errors</b> are differences from a truth in 64-bit \
@@ -372,9 +393,62 @@ fn foot(report: &Report, page: &mut String) {
          the whole fragment stage of one plain shader with the method, in SPIR-V as naga writes it, before a driver optimises it; \
          called functions count where they are called. What a method adds is its difference from another method.</p>{device}\n<p><b>The front</b>: a method \
          is marked when no other on the same inputs is cheaper and at least as accurate. Times within their spread, 20 % at most, count as \
-         alike.</p>\n<p>The same figures stand in <code>report.json</code> and in one CSV file for each part.</p>\n</section>\n\
+         alike.</p>\n{words}{nulls}<p>The same figures stand in <code>report.json</code> and in one CSV file for each part.</p>\n</section>\n\
          </main>\n<footer>Made by <code>halfvector report</code> on {}.</footer>\n<script>\n{SORT}</script>\n</body>\n</html>\n",
         escaped(&report.machine),
         escaped(&report.date),
     );
+}
+
+/// Words that the names of methods and inputs take for known.
+fn glossary() -> String {
+    const WORDS: [(&str, &str); 12] = [
+        (
+            "the report's",
+            "the form of the report that this project began with; kept beside the better ones, to be measured",
+        ),
+        ("default", "what is taken when nothing is chosen"),
+        ("rms error", "root of the mean square of the errors over the inputs"),
+        ("n.v, n.l, n.h, l.h", "cosines between the normal, the directions of view and light, and the half vector"),
+        ("roughness, alpha", "perceptual roughness, 0 to 1, and its square, which the equations take"),
+        (
+            "level",
+            "a smaller copy of an environment, blurred for one roughness; a shader mixes the two nearest (trilinear)",
+        ),
+        ("six levels", "the report's layout of an environment: levels for roughness 0, 0.2, ... 1"),
+        ("SH", "spherical harmonics: a few numbers for light from all directions; sh2 has nine"),
+        (
+            "MikkTSpace",
+            "the way of making tangents of a mesh that programs agree on (Mikkelsen 2008), so that normal maps fit",
+        ),
+        ("BC5", "blocks of two channels that GPUs read packed, one byte a texel"),
+        ("FLIP", "how different two pictures look side by side, 0 to 1 (Andersson et al. 2021)"),
+        ("ulp", "the distance of neighbouring numbers of a format"),
+    ];
+    let lines: String = WORDS
+        .iter()
+        .map(|(word, meaning)| format!("<dt>{}</dt><dd>{}</dd>", escaped(word), escaped(meaning)))
+        .collect();
+    format!("<p><b>Words</b></p>\n<dl>{lines}</dl>\n")
+}
+
+/// Why cells are empty.
+fn nulls(report: &Report) -> String {
+    if report.nulls.is_empty() {
+        return String::new();
+    }
+    let row = |null: &crate::missing::Null| {
+        format!(
+            "<tr><td>{}</td><td>{}</td><td><code>{}</code></td><td>{}</td></tr>\n",
+            escaped(&null.part),
+            escaped(&null.term),
+            escaped(&null.figure),
+            escaped(&null.why)
+        )
+    };
+    format!(
+        "<details><summary>Why figures are not there</summary><div class=\"scroll\"><table><thead><tr><th>part</th><th>term</th>\
+         <th>figure</th><th>why some of its rows have none</th></tr></thead><tbody>\n{}</tbody></table></div></details>\n",
+        report.nulls.iter().map(row).collect::<String>()
+    )
 }

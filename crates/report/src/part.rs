@@ -21,15 +21,49 @@ mod texels;
 
 use crate::{Effort, Row};
 
+/// A part while it is measured: how long to measure, and who is told what is finished.
+pub struct Run<'a> {
+    effort: Effort,
+    keep: &'a (dyn Fn(&[Row], f64) + Sync),
+}
+
+impl<'a> Run<'a> {
+    /// `keep` gets all rows of the part that are finished so far, none where they are the same as before, and how much of
+    /// the part is done, 0 to 1. It may be called from any thread.
+    pub fn new(effort: Effort, keep: &'a (dyn Fn(&[Row], f64) + Sync)) -> Run<'a> {
+        Run { effort, keep }
+    }
+
+    /// How long to measure.
+    pub(crate) fn effort(&self) -> Effort {
+        self.effort
+    }
+
+    /// These rows are finished, and so much of the part is done.
+    pub(crate) fn keep(&self, rows: &[Row], done: f64) {
+        (self.keep)(rows, done);
+    }
+
+    /// So much of the part is done.
+    pub(crate) fn at(&self, done: f64) {
+        (self.keep)(&[], done);
+    }
+}
+
 /// A part of the report.
 pub struct Part {
     /// Name for `--only`.
     pub name: &'static str,
-    /// Measures it.
-    pub rows: fn(Effort) -> Vec<Row>,
+    /// Measures it: all its rows, the finished ones on the way.
+    pub rows: fn(&Run<'_>) -> Vec<Row>,
 }
 
 impl Part {
+    /// Its rows, with nobody listening.
+    pub fn measured(&self, effort: Effort) -> Vec<Row> {
+        (self.rows)(&Run::new(effort, &|_, _| ()))
+    }
+
     /// About how long it takes on two cores [s]; parts that are not named here are quick.
     pub fn seconds(&self, effort: Effort) -> f64 {
         let [quick, full] = match self.name {
@@ -51,14 +85,14 @@ impl Part {
 /// All parts, in the order shown.
 pub const PARTS: &[Part] = &[
     Part { name: "shaders", rows: shaders::rows },
-    Part { name: "brdf", rows: brdf::rows },
-    Part { name: "energy", rows: energy::rows },
-    Part { name: "maps", rows: maps::rows },
-    Part { name: "mips", rows: mips::rows },
+    Part { name: "brdf", rows: |run| brdf::rows(run.effort()) },
+    Part { name: "energy", rows: |run| energy::rows(run.effort()) },
+    Part { name: "maps", rows: |run| maps::rows(run.effort()) },
+    Part { name: "mips", rows: |run| mips::rows(run.effort()) },
     Part { name: "ibl", rows: ibl::rows },
     Part { name: "lobes", rows: lobes::rows },
-    Part { name: "specular_aa", rows: specular_aa::rows },
-    Part { name: "precision", rows: precision::rows },
+    Part { name: "specular_aa", rows: |run| specular_aa::rows(run.effort()) },
+    Part { name: "precision", rows: |run| precision::rows(run.effort()) },
     Part { name: "pictures", rows: pictures::rows },
     Part { name: "peers", rows: peers::rows },
 ];

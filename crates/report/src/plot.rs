@@ -7,7 +7,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::comparison::{Budget, Comparison, Cost, Entry, Unit};
+use crate::comparison::{Comparison, Entry};
+use crate::cost::Cost;
+use crate::unit::{Budget, Unit};
 use crate::words;
 
 /// Size of a plot [px].
@@ -160,8 +162,13 @@ fn draw(comparison: &Comparison<'_>, root: Area<'_>) -> Drawn {
         chart.draw_series([Circle::new((dot.x, dot.y), 5, color.filled())])?;
     }
     let places: Vec<(i32, i32)> = dots.iter().map(|dot| chart.backend_coord(&(dot.x, dot.y))).collect();
+    let lines: Vec<Bounds> = dots
+        .iter()
+        .zip(&places)
+        .map(|(dot, &(x, y))| [x - 2, y, x + 2, chart.backend_coord(&(dot.x, dot.least)).1])
+        .collect();
     drop(chart);
-    labels(&root, &dots, &places, &corners)?;
+    labels(&root, &dots, &places, &corners, &lines)?;
     root.present()
 }
 
@@ -175,13 +182,15 @@ fn overlap(a: Bounds, b: Bounds) -> i32 {
 
 /// Names beside their dots, where they cover the least of what is there already; a name that has to go farther away is
 /// tied to its dot.
-fn labels(root: &Area<'_>, dots: &[Dot], places: &[(i32, i32)], corners: &[(i32, i32)]) -> Drawn {
+fn labels(root: &Area<'_>, dots: &[Dot], places: &[(i32, i32)], corners: &[(i32, i32)], lines: &[Bounds]) -> Drawn {
     let frame = [88, 6, SIZE.0 as i32 - 6, SIZE.1 as i32 - 62];
     let mut taken: Vec<Bounds> = places.iter().map(|&(x, y)| [x - 6, y - 6, x + 6, y + 6]).collect();
     taken.extend(corners.windows(2).map(|ends| {
         let ((a, b), (c, d)) = (ends[0], ends[1]);
         [a.min(c) - 2, b.min(d) - 2, a.max(c) + 2, b.max(d) + 2]
     }));
+    // Those down to a method's best inputs.
+    taken.extend(lines);
     for (dot, &(x, y)) in dots.iter().zip(places) {
         let (width, height) = ((7.7 * dot.name.chars().count() as f64) as i32, 16);
         let mut best: Option<(i32, Bounds)> = None;

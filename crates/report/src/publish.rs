@@ -5,9 +5,11 @@ use std::fmt::Write;
 
 use halfvector_graph::method::TERMS;
 
-use crate::comparison::{Budget, Comparison, Cost, Entry, Unit, comparisons};
+use crate::comparison::{Comparison, Entry, comparisons};
+use crate::cost::Cost;
 use crate::plot::{alone, scatter};
-use crate::{Report, Row, words};
+use crate::unit::{Budget, Unit};
+use crate::{Effort, Report, Row, words};
 
 /// Where the run stands that everything here is made of.
 pub const RUN: &str = "docs/accuracy.json";
@@ -64,18 +66,24 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
     let mut page = format!(
         "# Accuracy and speed\n\nWhat each approximation of Halfvector costs, and how wrong it is: errors against truth in double \
          precision, times as medians of interleaved runs, to be read as ratios. Measured on {}, {}, {}.\n\nThis page is made of \
-         [`accuracy.json`](accuracy.json). To renew both:\n\n```sh\ncargo run --release -- report -o out/report\ncp \
+         [`accuracy.json`](accuracy.json). To renew both:\n\n```sh\ncargo run --release -- report{} -o out/report\ncp \
          out/report/report.json docs/accuracy.json\nHALFVECTOR_BLESS=1 cargo test --workspace --test all -- accuracy\n```\n\n\
          `out/report/index.html` is the same with plots, inputs and where each error is largest.\n\n## What to choose\n\nThe \
          cheapest method whose rms error is within {} % ({}° for angles) for **mobile** and within {} % ({}°) for **desktop**; the \
          cheapest of those within 5 % of the least error for **film**. In brackets: no method keeps the limit, this is the one for film. \
-         What is weighed is the time on the device{} where every method has one, else the cost in the tables below; of methods that take \
-         as long, within their spread (20 % at most), it is the more accurate. Only what `--method` knows is recommended, and what the library alone \
+         What is weighed is the time on the device{} where every method has one, the instructions of the same shaders where these times spread by \
+         more than 10 %, else the cost in the tables below; of methods that take as long, within their spread (20 % at most), it is the more \
+         accurate; for mobile, of those that take up to 1.2 times as long as the cheapest, the one that reads the least memory, where it is known \
+         of all. Only what `--method` knows is recommended, and what the library alone \
          has stands behind it.\n\n\
          | term | inputs | mobile | desktop | film |\n|---|---|---|---|---|\n",
         report.machine,
         report.date,
         report.effort.words(),
+        match report.effort {
+            Effort::Quick => " --quick",
+            Effort::Full => "",
+        },
         100.0 * Unit::Relative.limit(Budget::Mobile),
         Unit::Degrees.limit(Budget::Mobile),
         100.0 * Unit::Relative.limit(Budget::Desktop),

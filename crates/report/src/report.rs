@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Effort, Row, write};
+use crate::missing::{self, Null};
+use crate::part::shaders;
+use crate::{Effort, Row, mark_pareto, write};
 
 /// What `report.json` holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,8 +19,12 @@ pub struct Report {
     pub effort: Effort,
     /// Names of the parts that are measured so far.
     pub parts: Vec<String>,
-    /// What was measured, part by part.
+    /// What was measured, part by part. Rows of a part that is not among `parts` are those that were finished when the run was
+    /// interrupted.
     pub rows: Vec<Row>,
+    /// Why figures of the rows are null.
+    #[serde(default)]
+    pub nulls: Vec<Null>,
 }
 
 /// The version of the layout.
@@ -39,7 +45,23 @@ impl Report {
     /// A report of this machine and day, without rows.
     pub fn begun(effort: Effort) -> Report {
         let (machine, date) = (write::machine(), write::today());
-        Report { schema: SCHEMA, machine, date, effort, parts: Vec::new(), rows: Vec::new() }
+        Report { schema: SCHEMA, machine, date, effort, parts: Vec::new(), rows: Vec::new(), nulls: Vec::new() }
+    }
+
+    /// Takes the rows of a part in the place of those that it had, and marks which of them no other beats.
+    pub fn take(&mut self, part: &str, mut rows: Vec<Row>) {
+        self.rows.retain(|row| row.part != part);
+        rows.iter_mut().for_each(|row| part.clone_into(&mut row.part));
+        let first = self.rows.len();
+        self.rows.append(&mut rows);
+        shaders::share(&mut self.rows);
+        mark_pareto(&mut self.rows[first..]);
+        self.nulls = missing::nulls(&self.rows);
+    }
+
+    /// The rows of a part.
+    pub fn rows_of(&self, part: &str) -> Vec<Row> {
+        self.rows.iter().filter(|row| row.part == part).cloned().collect()
     }
 
     /// Reads `report.json`.
@@ -56,9 +78,9 @@ impl Report {
     /// (an infinite error) are null.
     pub fn to_json(&self) -> String {
         let rows: Vec<String> = self.rows.iter().map(|row| serde_json::json!(row).to_string()).collect();
-        let Report { schema, machine, date, effort, parts, .. } = self;
+        let Report { schema, machine, date, effort, parts, nulls, .. } = self;
         let head = serde_json::json!({
-            "schema": schema, "machine": machine, "date": date, "effort": effort, "parts": parts, "rows": []
+            "schema": schema, "machine": machine, "date": date, "effort": effort, "parts": parts, "nulls": nulls, "rows": []
         });
         head.to_string().replacen("\"rows\":[]}", &format!("\"rows\":[\n{}\n]}}\n", rows.join(",\n")), 1)
     }

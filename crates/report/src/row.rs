@@ -56,6 +56,9 @@ pub struct Row {
     pub bytes: Option<u64>,
     /// Why a figure that one would look for is not there, or what one has to know of it.
     pub note: Option<String>,
+    /// Where the figures were not measured in this run: when they were recorded, and on which machine.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recorded: Option<String>,
     /// No other method of its term and domain is cheaper and at least as accurate, or more accurate and as cheap; set by
     /// [`mark_pareto`](crate::mark_pareto).
     pub pareto: bool,

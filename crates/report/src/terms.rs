@@ -39,11 +39,12 @@ pub(crate) fn explained(name: &str) -> &'static str {
         }
         "precision" => {
             "Each form on inputs at the ends of its domain: cosines from 1e-6, roughness from 0.0001. On the CPU in Rust, f16 with \
-             each operation rounded; on the device in WGSL. An ulp is the distance of neighbouring numbers of the format."
+             each operation rounded; on the device in WGSL. The truth is the same form in 64 bits, which has a row only where it gives what is no \
+             number. An ulp is the distance of neighbouring numbers of the format."
         }
         "peer" => {
             "The same work by other programs. What is recorded was measured once, on the machine and day that its line names, \
-             and not in this run."
+             and not in this run, for the reason that stands there."
         }
         "split_sum" => {
             "Prefiltered light times albedo, both exact, against the sum over all light: what no filter can mend."

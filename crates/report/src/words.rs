@@ -1,7 +1,9 @@
 //! Numbers and findings in words: what a plot shows, said from its data.
 
 use crate::Row;
-use crate::comparison::{Budget, Comparison, Cost, Entry, Unit};
+use crate::comparison::{Comparison, Entry};
+use crate::cost::Cost;
+use crate::unit::{Budget, Unit};
 
 /// A number with two digits that count: 0.013, 42, 5.1×10⁻⁸.
 pub fn number(x: f64) -> String {
@@ -240,5 +242,21 @@ mod tests {
         let many = ["a: x; deg", "b: x; deg", "c: x; deg", "d: x; deg", "e: x; deg", "f: x; deg"];
         assert_eq!(inputs(&many), "6 cases from a to f (the worst of them): x");
         assert_eq!(against("all; angle in degrees"), "angle in degrees");
+    }
+
+    /// Of what is nearly as fast as the fastest the sentence names the one that errs least.
+    #[test]
+    fn a_finding_names_a_method_worth_taking() {
+        let row = |method: &str, error, cost| Row {
+            error_rms: Some(error),
+            cost_ns: Some(cost),
+            ..Row::new("d", method, "one; relative")
+        };
+        let rows = [row("good", 0.001, 3.0), row("fair", 0.1, 1.04), row("poor", 0.8, 1.0)];
+        let found = |rows: &[Row]| finding(&crate::comparison::comparisons(rows)[0]);
+        assert_eq!(found(&rows), "`good` errs least, 0.10 %; `fair` is 2.9 times as fast but errs 10 %");
+        // Nobody is 1.0 times as fast.
+        let rows = [row("good", 0.001, 1.04), row("poor", 0.8, 1.0)];
+        assert_eq!(found(&rows), "`good` errs least, 0.10 %, and nothing is cheaper beyond the spread");
     }
 }

@@ -2,11 +2,19 @@
 
 use crate::Row;
 
+/// How the first line of every report's CSV begins.
+const HEAD: &str = "term,method,domain,error_max";
+
+/// Whether a line is the first one of a CSV that a report wrote.
+pub fn is_csv_head(line: &str) -> bool {
+    line.starts_with(HEAD)
+}
+
 /// The rows as CSV, with a line of names; a figure that does not apply is empty.
 pub fn csv(rows: &[Row]) -> String {
     let mut text =
         "term,method,domain,error_max,error_rms,error_bound,at,flip,not_finite,first_failure,cost_ns,cost_spread,cost_batch_ns,cost_batch_spread,yardstick_ns,instructions,\
-         gpu_ns,gpu_spread,gpu,bytes,note,pareto\n"
+         gpu_ns,gpu_spread,gpu,bytes,note,recorded,pareto\n"
             .to_owned();
     for row in rows {
         let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:e}"));
@@ -34,6 +42,7 @@ pub fn csv(rows: &[Row]) -> String {
             word(&row.gpu),
             count(row.bytes),
             word(&row.note),
+            word(&row.recorded),
             row.pareto.to_string(),
         ];
         text.push_str(&fields.join(","));
@@ -85,7 +94,7 @@ mod tests {
     fn text_with_commas_stays_one_field() {
         let row = Row { at: Some("n.v = 0, \"floor\"".into()), error_max: Some(0.5), ..Row::new("d", "ggx", "a, b") };
         let text = csv(std::slice::from_ref(&row));
-        assert_eq!(text.lines().nth(1), Some("d,ggx,\"a, b\",5e-1,,,\"n.v = 0, \"\"floor\"\"\",,,,,,,,,,,,,,,false"));
+        assert_eq!(text.lines().nth(1), Some("d,ggx,\"a, b\",5e-1,,,\"n.v = 0, \"\"floor\"\"\",,,,,,,,,,,,,,,,false"));
         let columns = |line: usize| {
             text.lines().nth(line).map(|line| line.replace("a, b", "").replace("0, ", "").split(',').count())
         };

@@ -8,6 +8,7 @@ use halfvector_graph::document::{SURFACE_NODE, SocketRef};
 use halfvector_graph::method::Methods;
 use halfvector_ibl::{BakedEnvironment, LoadedEnvironment};
 use halfvector_raster::{RasterOptions, draw};
+use halfvector_reference::metrics::CleanSquares;
 use halfvector_reference::{Reference, RenderOptions};
 use halfvector_scene::light::parse_light;
 use halfvector_scene::{Background, EnvironmentSource, Picture, Scene};
@@ -24,8 +25,6 @@ pub(crate) const LAMP: &str = "directional:1,1,1:3";
 /// Radius of the sphere's outline over half the picture: tan(asin(1 / 5)) / tan(15 degrees) = 0.7618, less what the flat
 /// sides of its mesh cut off.
 const OUTLINE: f64 = 0.76;
-/// How many standard errors an error is taken away from a measured one.
-const CAUTION: f64 = 2.0;
 
 /// The root mean square of differences over the mean of what is true, in the pixels that the sphere covers whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,30 +142,18 @@ fn is_covered(pixel: usize) -> bool {
     x.hypot(y) <= OUTLINE * f64::from(SIZE) / 2.0
 }
 
-/// With D the difference, d the seen one and s the standard error of the truth, E[d^2] = D^2 + s^2, and d^2 - s^2 has the
-/// variance 4 D^2 s^2 + 2 s^4 where the errors are normal; the channels of a pixel are taken to err together.
+/// The error of a picture; `noise` is the standard error of each channel of the truth, none where it is exact.
 fn measure(test: &[[f64; 3]], truth: &[[f64; 3]], noise: Option<&[[f64; 3]]>) -> Measured {
-    let (mut square, mut variance, mut sum, mut count) = (0.0, 0.0, 0.0, 0.0_f64);
+    let (mut squares, mut sum, mut count) = (CleanSquares::default(), 0.0, 0.0_f64);
     for pixel in (0..truth.len().min(test.len())).filter(|&pixel| is_covered(pixel)) {
-        let mut deviation = 0.0;
-        for channel in 0..3 {
-            let d = test[pixel][channel] - truth[pixel][channel];
-            let s = noise.map_or(0.0, |noise| noise[pixel][channel]);
-            let clean = d * d - s * s;
-            square += clean;
-            deviation += (4.0 * clean.max(0.0) * s * s + 2.0 * s.powi(4)).sqrt();
-            sum += truth[pixel][channel];
-            count += 1.0;
-        }
-        variance += deviation * deviation;
+        squares.add(test[pixel], truth[pixel], noise.map_or([0.0; 3], |noise| noise[pixel]));
+        sum += truth[pixel].iter().sum::<f64>();
+        count += 3.0;
     }
     let mean = sum / count.max(1.0);
-    let over_mean = |square: f64| {
-        let rms = (square / count.max(1.0)).max(0.0).sqrt();
-        if rms == 0.0 { 0.0 } else { rms / mean.max(0.0) }
-    };
-    let away = CAUTION * variance.sqrt();
-    Measured { error: over_mean(square), least: over_mean(square - away), most: over_mean(square + away) }
+    let over_mean = |rms: f64| if rms == 0.0 { 0.0 } else { rms / mean.max(0.0) };
+    let [least, most] = squares.rms_between().map(over_mean);
+    Measured { error: over_mean(squares.rms()), least, most }
 }
 
 #[cfg(test)]

@@ -1,19 +1,21 @@
 //! `halfvector report`: speed against error of every method, measured here and now.
 
+mod kept;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use halfvector_report::part::shaders;
-use halfvector_report::{Effort, PARTS, Part, Report, Row, compare, mark_pareto, page, write};
+use halfvector_report::{Effort, PARTS, Part, Report, Row, Run, compare};
 
+use self::kept::Kept;
 use crate::failure::{FOUND, Failure};
-use crate::output::{check_place, note, print, write_file};
+use crate::output::{check_place, note, print};
 
 /// Measures speed and error of every method on this machine and writes a page with plots, report.json and CSV files.
 ///
-/// The files are written anew after each part: what is measured stays when the command is interrupted.
+/// The files are written anew whenever rows are finished: what is measured stays when the command is interrupted. CSV files of
+/// an older report in the same folder go, for they would not belong to this one's page.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Examples:
   halfvector report --quick -o out/report
@@ -39,10 +41,6 @@ pub(crate) struct ReportArgs {
 /// How often what seems to be slower is measured again before it is told.
 const CONFIRMATIONS: usize = 5;
 
-/// What a shell says of a command that an interrupt ended: 128 and the signal's number.
-#[cfg(unix)]
-const INTERRUPTED: i32 = 130;
-
 /// Before it is measured again.
 const CALM: Duration = Duration::from_secs(2);
 
@@ -61,37 +59,38 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
         let failure = Failure::input("the folder cannot be made").at(&args.output).because(error);
         failure.try_to("another folder, or one with other permissions")
     })?;
-    let mut report = Report::begun(effort);
-    let kept = Kept::told_when_interrupted(&args.output);
+    let kept = Kept::begun(&args.output, effort);
     let start = Instant::now();
+    let all: f64 = parts.iter().map(|part| part.seconds(effort)).sum();
     for (done, part) in parts.iter().enumerate() {
         let before: f64 = parts[..done].iter().map(|part| part.seconds(effort)).sum();
-        // How much slower than foreseen this machine has been so far.
-        let pace = if before > 2.0 { start.elapsed().as_secs_f64() / before } else { 1.0 };
-        let left: f64 = pace * parts[done..].iter().map(|part| part.seconds(effort)).sum::<f64>();
-        let bar = crate::output::progress(&format!("{}, about {} left", part.name, in_words(left)));
-        let all: f64 = parts.iter().map(|part| part.seconds(effort)).sum();
-        bar.set_position((1000.0 * before / all) as u64);
-        let mut rows = (part.rows)(effort);
+        let bar = crate::output::progress(part.name);
+        let at = |share: f64| {
+            let foreseen = before + share * part.seconds(effort);
+            // How much slower than foreseen this machine has been so far.
+            let pace = if foreseen > 2.0 { start.elapsed().as_secs_f64() / foreseen } else { 1.0 };
+            bar.set_position((1000.0 * foreseen / all) as u64);
+            bar.set_message(format!("{}, about {} left", part.name, in_words(pace * (all - foreseen))));
+        };
+        at(0.0);
+        let run = |rows: &[Row], share: f64| {
+            at(share);
+            kept.part_so_far(part.name, rows);
+        };
+        let rows = (part.rows)(&Run::new(effort, &run));
         bar.finish_and_clear();
-        let first = report.rows.len();
-        report.rows.append(&mut rows);
-        shaders::share(&mut report.rows);
-        let rows = &mut report.rows[first..];
-        rows.iter_mut().for_each(|row| part.name.clone_into(&mut row.part));
-        mark_pareto(rows);
-        write_file(&args.output.join(format!("{}.csv", part.name)), write::csv(rows).as_bytes())?;
-        report.parts.push(part.name.to_owned());
-        write_file(&args.output.join("report.json"), report.to_json().as_bytes())?;
-        write_file(&args.output.join("index.html"), page::html(&report).as_bytes())?;
-        kept.add(part.name);
-        note(format_args!("{}: {} rows", part.name, report.rows.len() - first));
+        note(format_args!("{}: {} rows", part.name, rows.len()));
+        kept.part(part.name, rows)?;
     }
+    let report = kept.report();
     let page = args.output.join("index.html");
     note(format_args!("{} after {}", page.display(), in_words(start.elapsed().as_secs_f64())));
     let Some(old) = old else { return Ok(0) };
     if old.effort != report.effort {
         note("the old report drew other points (--quick or not): errors are not compared, times are");
+    }
+    if let Some([before, now]) = compare::other_device(&old, &report) {
+        note(format_args!("the old report's device is {before}, this one's {now}: their times are not compared"));
     }
     let mut changes = compare::changes(&old, &report);
     // What else the machine does slows one method more than another, in a whole run: a change stays.
@@ -116,51 +115,6 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     let (common, worse) = (compare::common(&old, &report), changes.len());
     note(format_args!("figures that are worse: {worse}, of {common} rows that the report of {} has, too", old.date));
     Ok(if changes.is_empty() { 0 } else { FOUND })
-}
-
-/// The parts whose figures are written already.
-#[derive(Clone, Default)]
-struct Kept(Arc<Mutex<Vec<&'static str>>>);
-
-impl Kept {
-    /// Of a report that is written to a folder: when the command is interrupted, it says what stands there and ends.
-    fn told_when_interrupted(folder: &Path) -> Kept {
-        let kept = Kept::default();
-        let (told, folder) = (kept.clone(), folder.to_owned());
-        on_interrupt(move || note(told.in_words(&folder)));
-        kept
-    }
-
-    fn add(&self, part: &'static str) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(part);
-    }
-
-    fn in_words(&self, folder: &Path) -> String {
-        let parts = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let folder = folder.display();
-        if parts.is_empty() {
-            return format!("interrupted before the first part was measured: nothing new stands in {folder}");
-        }
-        format!(
-            "interrupted: what is measured is kept in {folder}: {} (index.html, report.json, CSV files)",
-            parts.join(", ")
-        )
-    }
-}
-
-/// Ends the process on an interrupt, after a last word. Where the system has no such signal an interrupt ends it without a word.
-fn on_interrupt(last_word: impl FnOnce() + Send + 'static) {
-    #[cfg(unix)]
-    if let Ok(mut signals) = signal_hook::iterator::Signals::new([signal_hook::consts::SIGINT]) {
-        std::thread::spawn(move || {
-            if signals.forever().next().is_some() {
-                last_word();
-                std::process::exit(INTERRUPTED);
-            }
-        });
-    }
-    #[cfg(not(unix))]
-    drop(last_word);
 }
 
 /// Whether an old report has any of the parts that are to be measured.

@@ -1,5 +1,7 @@
 //! Plain differences of numbers, pixel by pixel and channel by channel, and what of them noise explains.
 
+use super::noise::without_noise;
+
 /// How far a picture is from another one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difference {
@@ -28,7 +30,7 @@ pub fn difference(test: &[[f64; 3]], reference: &[[f64; 3]], standard_error: Opt
     for (i, (t, r)) in test.iter().zip(reference).enumerate() {
         for c in 0..3 {
             let (d, noise) = (t[c] - r[c], standard_error.map_or(0.0, |errors| errors[i][c]));
-            let clean = d * d - noise * noise;
+            let clean = without_noise(d, noise);
             square += clean;
             relative += clean / (r[c] * r[c] + RELATIVE_FLOOR);
             signed += d;

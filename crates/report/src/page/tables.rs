@@ -5,9 +5,10 @@ use std::fmt::Write;
 
 use super::{cell, code, tags};
 use crate::Row;
-use crate::comparison::{Cost, Unit};
+use crate::cost::Cost;
 use crate::plot::escaped;
 use crate::timing::median;
+use crate::unit::Unit;
 use crate::words;
 
 /// A card with rows of one term.
@@ -133,7 +134,7 @@ fn plain(rows: &[&Row], page: &mut String) {
         };
         let _ = write!(page, "<th class=\"n\">{name}</th>");
     }
-    page.push_str("<th></th></tr></thead><tbody>\n");
+    page.push_str("<th>remarks</th></tr></thead><tbody>\n");
     let across = 2 + shown.count();
     for inputs in distinct(rows.iter().map(|row| inputs_of(row))) {
         let _ = writeln!(page, "<tr class=\"case\"><td colspan=\"{across}\">{}</td></tr>", escaped(inputs));
@@ -156,7 +157,8 @@ fn plain(rows: &[&Row], page: &mut String) {
             }
             let failure = row.first_failure.as_deref().map(|at| format!("fails first at {}", words::shortened(at)));
             let note = row.note.clone().unwrap_or_default();
-            let notes = [words::against(&row.domain).to_owned(), failure.unwrap_or_default(), note];
+            let recorded = row.recorded.as_deref().map_or(String::new(), |when| format!("recorded on {when}"));
+            let notes = [words::against(&row.domain).to_owned(), failure.unwrap_or_default(), recorded, note];
             let notes: Vec<&str> = notes.iter().map(String::as_str).filter(|note| !note.is_empty()).collect();
             let _ = writeln!(page, "<td class=\"small\">{}</td></tr>", escaped(&notes.join("; ")));
         }
@@ -192,27 +194,28 @@ fn finding(rows: &[&Row]) -> Option<String> {
             least.method, least.instructions?, most.method, most.instructions?
         ));
     }
-    let said = |method: &&str| {
-        let errors = of(method);
-        let (least, most) = errors.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &x| (a.min(x), b.max(x)));
-        match errors.len() {
-            0 => None,
-            1 => Some(format!("`{method}` {errs} {}", words::error(most, unit))),
-            n => Some(format!(
-                "`{method}` {errs} {} (median of {n} cases, {} to {})",
-                words::error(median(errors), unit),
-                words::error(least, unit),
-                words::error(most, unit)
-            )),
-        }
-    };
-    let mut told = methods.clone();
-    if told.len() > 4 {
-        // The least and the most wrong.
-        told.sort_by(|a, b| median(of(a)).total_cmp(&median(of(b))));
-        told = vec![told[0], told[told.len() - 1]];
+    // Those that were measured, the least wrong first; of each the median of its cases.
+    let mut told: Vec<(&str, f64, usize)> = methods
+        .iter()
+        .map(|method| (*method, of(method)))
+        .filter(|(_, errors)| !errors.is_empty())
+        .map(|(method, errors)| (method, median(errors.clone()), errors.len()))
+        .collect();
+    told.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let text = |x| if x == 0.0 { "nothing".to_owned() } else { words::error(x, unit) };
+    let ((best, least, cases), (worst, most, _)) = (told.first()?, told.last()?);
+    let medians = if *cases > 1 { format!(" (medians of {cases} cases)") } else { String::new() };
+    if told.len() == 1 {
+        return Some(format!("`{best}` {errs} {}{medians}", text(*least)));
     }
-    Some(told.iter().filter_map(said).collect::<Vec<_>>().join("; "))
+    if words::error(*least, unit) == words::error(*most, unit) {
+        return Some(format!(
+            "All of them {} {}{medians}",
+            if looks { "differ by a FLIP of" } else { "err" },
+            text(*most)
+        ));
+    }
+    Some(format!("`{best}` {errs} least, {}; `{worst}` most, {}{medians}", text(*least), text(*most)))
 }
 
 /// What drawers differ by from the reference, and what specialising saves.
@@ -247,12 +250,6 @@ fn pictures(rows: &[&Row]) -> Option<String> {
     (!said.is_empty()).then(|| format!("{} (medians of the examples)", said.join("; ")))
 }
 
-/// When a row was recorded, where it was not measured in this run.
-fn recorded(row: &Row) -> Option<&str> {
-    let (_, rest) = row.domain.split_once("recorded on ")?;
-    rest.get(..10)
-}
-
 /// Each of our programs beside the other at the same work.
 fn peers(rows: &[&Row]) -> Option<String> {
     let work = |row: &Row| row.domain.split(';').next().unwrap_or_default().to_owned();
@@ -265,11 +262,7 @@ fn peers(rows: &[&Row]) -> Option<String> {
                 rows.iter().skip_while(|row| row.method != *method).skip(1).find(|row| work(row) == work(ours))?;
             let (cost, [a, b]) = costs.iter().find_map(|cost| Some((cost, [cost.of(ours)?, cost.of(other)?])))?;
             let what = if cost.is_time() { "of the time" } else { "of the instructions" };
-            let when = match (recorded(ours), recorded(other)) {
-                (Some(day), Some(_)) => format!(" (both recorded on {day})"),
-                (_, Some(day)) => format!(" (recorded on {day}, maybe on another machine)"),
-                _ => String::new(),
-            };
+            let when = other.recorded.as_ref().map_or(String::new(), |when| format!(" (recorded on {when})"));
             let errors = match (ours.error_rms, other.error_rms) {
                 (Some(a), Some(b)) => {
                     let unit = Unit::of(&ours.domain);
@@ -305,7 +298,7 @@ mod tests {
             cases.iter().enumerate().flat_map(|(i, case)| [row("a", case, i as f64), row("b", case, 9.0)]).collect();
         let page = shown(&rows);
         assert!(
-            page.contains("<code>a</code> errs 1.0° (median of 3 cases, 0° to 2.0°); <code>b</code> errs"),
+            page.contains("<code>a</code> errs least, 1.0°; <code>b</code> most, 9.0° (medians of 3 cases)"),
             "{page}"
         );
         assert!(page.contains("<tr><td>ball</td>") && page.contains("Of all: a mesh; in degrees."), "{page}");
@@ -319,8 +312,9 @@ mod tests {
         let mut rows = vec![Row::new("peer", "ours", "a bake; now"), Row::new("peer", "theirs", "a bake; now")];
         (rows[0].cost_ns, rows[1].cost_ns) = (Some(2.0), Some(8.0));
         assert!(shown(&rows).contains("<code>ours</code> takes 25 % of the time of <code>theirs</code></h3>"));
-        rows[1].domain = "a bake; recorded on 2026-11-22, elsewhere".into();
+        rows[1].recorded = Some("2026-11-22, a machine".into());
         let page = shown(&rows);
-        assert!(page.contains("of <code>theirs</code> (recorded on 2026-11-22, maybe on another machine)"), "{page}");
+        assert!(page.contains("of <code>theirs</code> (recorded on 2026-11-22, a machine)</h3>"), "{page}");
+        assert!(page.contains("<td class=\"small\">now; recorded on 2026-11-22, a machine</td>"), "{page}");
     }
 }

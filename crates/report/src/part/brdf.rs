@@ -105,6 +105,15 @@ impl<const N: usize> Against<'_, N> {
     fn itself(floor: f64) -> Self {
         Against { name: "the same form in f64", truth: None, floor }
     }
+
+    /// What errors are, in words. No reflectance is more than 1, so that the greater of it and 1 is 1.
+    fn errors(&self) -> String {
+        match self.floor {
+            0.0 => "relative error".to_owned(),
+            1.0 => "absolute error, of a reflectance in 0..1,".to_owned(),
+            floor => format!("error relative to max(truth, {floor})"),
+        }
+    }
 }
 
 impl<const N: usize> Group<N> {
@@ -131,10 +140,7 @@ impl<const N: usize> Group<N> {
 
         let mut rows = Vec::new();
         for against in against {
-            let domain = format!(
-                "{}; error relative to max(truth, {}) against {}",
-                self.points_are, against.floor, against.name
-            );
+            let domain = format!("{}; {} against {}", self.points_are, against.errors(), against.name);
             for (i, form) in self.forms.iter().enumerate() {
                 let mut errors = Errors::default();
                 for &x in points {

@@ -1,13 +1,13 @@
 //! Light of environments: levels, what is seen between them, diffuse light, the split sum's own error; on the two environments of our own, against
 //! sums over every texel.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
 use super::split_sum;
 use crate::error::Errors;
 use crate::timing::{Candidate, measured};
-use crate::{Effort, Row};
+use crate::{Effort, Row, Run};
 use halfvector_ibl::environment::{
     environment_sample, environment_sample_hermite, irradiance_sh2, lod_geometric, lod_linear, lod_report,
 };
@@ -19,20 +19,38 @@ use halfvector_ibl::{
 use rayon::prelude::*;
 
 /// Measures the part.
-pub fn rows(effort: Effort) -> Vec<Row> {
+pub fn rows(run: &Run<'_>) -> Vec<Row> {
     let mut rows = Vec::new();
-    for (name, environment) in [("studio", studio()), ("sky", sky())] {
-        let Source::Equirect(map) = &environment.source else { continue };
-        let truth = Quadrature::new(map);
-        rows.extend(levels(effort, name, &environment, &truth));
-        // The largest bakes are made once for all that read them.
-        let baked = |level_map| bake(&environment, &BakeOptions { level_map, ..BakeOptions::default() });
-        let maps = [baked(LevelMap::Geometric), baked(LevelMap::Linear), baked(LevelMap::Report)];
-        rows.extend(seen(effort, name, &maps, &truth));
-        rows.extend(diffuse(effort, name, &environment, &maps[2], &truth));
-        rows.extend(split_sum::rows(effort, name, &environment, &maps[0]));
+    for (first, name, environment) in [(0.0, "studio", studio()), (0.5, "sky", sky())] {
+        under(run, first, name, &environment, &mut rows);
     }
     rows
+}
+
+/// The rows of one of the two environments, which take half the time.
+pub fn rows_under_sky(run: &Run<'_>) -> Vec<Row> {
+    let mut rows = Vec::new();
+    under(run, 0.0, "sky", &sky(), &mut rows);
+    rows
+}
+
+/// Adds the rows of an environment, the part's half from `first` on.
+fn under(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment, rows: &mut Vec<Row>) {
+    let effort = run.effort();
+    let Source::Equirect(map) = &environment.source else { return };
+    let truth = Quadrature::new(map);
+    rows.extend(levels(run, first, name, environment, &truth));
+    run.keep(rows, first + 0.35);
+    // The largest bakes are made once for all that read them.
+    let baked = |level_map| bake(environment, &BakeOptions { level_map, ..BakeOptions::default() });
+    let maps = [baked(LevelMap::Geometric), baked(LevelMap::Linear), baked(LevelMap::Report)];
+    run.at(first + 0.4);
+    rows.extend(seen(effort, name, &maps, &truth));
+    run.keep(rows, first + 0.42);
+    rows.extend(diffuse(effort, name, environment, &maps[2], &truth));
+    run.keep(rows, first + 0.45);
+    rows.extend(split_sum::rows(effort, name, environment, &maps[0]));
+    run.keep(rows, first + 0.5);
 }
 
 /// Relative error of a colour, each channel against at least a thousandth of the mean radiance.
@@ -44,7 +62,12 @@ pub(super) fn add(errors: &mut Errors, value: [f32; 3], truth: [f64; 3], mean: [
 
 /// The levels at random texel centres, by filter, quality and size. Cost is the time of a whole bake on all cores, irradiance
 /// and harmonics included, shared out among the texels of its levels.
-fn levels(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Quadrature) -> Vec<Row> {
+fn levels(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment, truth: &Quadrature) -> Vec<Row> {
+    let effort = run.effort();
+    let rounds = effort.pick(1, 5);
+    // Each is made once to warm up, too, where it is made more than once.
+    let bakes = Cell::new(0);
+    let count = 8 * if rounds > 1 { rounds + 1 } else { 1 };
     let cases: Vec<(&str, BakeOptions)> = [
         ("ggx preview", Quality::Preview, 128, Prefilter::Ggx),
         ("ggx preview", Quality::Preview, 256, Prefilter::Ggx),
@@ -70,6 +93,8 @@ fn levels(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Q
         .map(|((_, options), made)| {
             |_| {
                 let baked = bake(environment, options);
+                bakes.set(bakes.get() + 1);
+                run.at(first + 0.3 * (bakes.get() as f64 / count as f64).min(1.0));
                 let read = f64::from(baked.irradiance_sh[0][0]);
                 made.replace(Some(baked));
                 read
@@ -77,7 +102,7 @@ fn levels(effort: Effort, name: &str, environment: &LoadedEnvironment, truth: &Q
         })
         .collect();
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
-    let times = measured(&mut candidates, effort.pick(1, 5));
+    let times = measured(&mut candidates, rounds);
     // Places of bakes of the same levels are the same.
     let mut known: HashMap<Vec<(usize, u32)>, Vec<[f64; 3]>> = HashMap::new();
     cases

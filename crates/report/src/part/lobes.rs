@@ -4,8 +4,10 @@
 
 use super::ibl::{direction, unit};
 use super::split_sum::{cells, view};
+use std::sync::{Mutex, PoisonError};
+
 use crate::error::Errors;
-use crate::{Effort, Row};
+use crate::{Row, Run};
 use halfvector_brdf::frame::{Frame, frame_from_normal, half_from_light};
 use halfvector_brdf::fresnel::{f_schlick, f0_from_ior};
 use halfvector_brdf::lobe_anisotropic::{
@@ -60,14 +62,23 @@ const IN_NO_SHADER: [(&str, &str); 6] = [
 ];
 
 /// Measures the part.
-pub fn rows(effort: Effort) -> Vec<Row> {
+pub fn rows(run: &Run<'_>) -> Vec<Row> {
     const LOBES: [fn(&Light, usize) -> Vec<Row>; 9] =
         [specular, coat, sheen, anisotropy, transmission, thin_walled, thin_film, occlusion, horizon];
-    let count = effort.pick(2, 12);
+    let count = run.effort().pick(2, 12);
+    let finished: Mutex<(usize, Vec<Row>)> = Mutex::default();
+    let kept = |rows: Vec<Row>| {
+        let mut finished = finished.lock().unwrap_or_else(PoisonError::into_inner);
+        let (lobes, all) = &mut *finished;
+        *lobes += 1;
+        all.extend_from_slice(&rows);
+        run.keep(all, *lobes as f64 / (2 * LOBES.len()) as f64);
+        rows
+    };
     let under = |(name, environment): (&'static str, LoadedEnvironment)| {
         let Source::Equirect(map) = &environment.source else { return Vec::new() };
         let light = Light::new(name, map.area_resampled(2 * ROWS, ROWS));
-        LOBES.par_iter().flat_map_iter(|rows| rows(&light, count)).collect::<Vec<_>>()
+        LOBES.par_iter().flat_map_iter(|rows| kept(rows(&light, count))).collect::<Vec<_>>()
     };
     [("studio", studio()), ("sky", sky())].into_iter().flat_map(under).collect()
 }
@@ -391,6 +402,7 @@ fn horizon(light: &Light, count: usize) -> Vec<Row> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Effort;
 
     /// Largest rms error of each default, in the studio and under the sky: what is measured, and a tenth.
     const BOUNDS: [(&str, &str, f64, f64); 9] = [
@@ -407,7 +419,7 @@ mod tests {
 
     #[test]
     fn lobes_are_near_their_integrals() {
-        let rows = rows(Effort::Quick);
+        let rows = rows(&Run::new(Effort::Quick, &|_, _| ()));
         for row in &rows {
             let (rms, max) = (row.error_rms.expect("measured"), row.error_max.expect("measured"));
             let place = if row.domain.contains("studio") { "studio" } else { "sky" };

@@ -1,4 +1,9 @@
-//! Other programs at the same work: measured in this run where they are installed, else as recorded once, with day and machine.
+//! Other programs at the same work: measured in this run where they are installed, else as recorded once, with the day, the machine,
+//! and why they are not measured here.
+//!
+//! What Python has to run travels with the program: it does not matter where the report is started.
+
+mod programs;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -9,78 +14,81 @@ use halfvector_brdf::batch::{Kernel, Simd};
 use halfvector_ibl::{BakeOptions, Cube, LoadedEnvironment, Quadrature, Source, bake, sky};
 use rayon::prelude::*;
 
+use self::programs::{Generated, generated, mitsuba_rate, optimised_instructions};
 use super::ibl::{add, texel_centre};
 use super::shaders::default_surface;
 use crate::error::Errors;
 use crate::placed::Columns;
 use crate::timing::{SITTINGS, measured, median};
-use crate::{Effort, Row};
+use crate::{Effort, Row, Run};
 
-/// Mitsuba 3's rates on one core, where the project lies.
-const MITSUBA: &str = "benches/peers/mitsuba_brdf.py";
-
-/// MaterialX's shader, counted.
-const MATERIAL_X: &str = "benches/peers/materialx_shader.py";
+/// When and where the figures of peers that are not there were recorded.
+const RECORDED: &str = "2026-11-23, Intel(R) Xeon(R) Processor, 2 cores, linux";
 
 /// Measures the part.
-pub fn rows(effort: Effort) -> Vec<Row> {
+pub fn rows(run: &Run<'_>) -> Vec<Row> {
+    let effort = run.effort();
     let mut rows = lobes(effort);
+    run.keep(&rows, 0.3);
+    rows.extend(shaders());
+    run.keep(&rows, 0.5);
     rows.extend(bakes(effort));
-    rows.extend(shaders(effort));
     rows
 }
 
-/// MaterialX's generator and ours at a surface that nobody has touched: instructions of the fragment stage.
-fn shaders(effort: Effort) -> [Row; 2] {
-    const WORK: &str = "the fragment stage of a surface with its default values under one light and a prefiltered environment, after \
-                        spirv-opt -O";
-    let measured = (effort == Effort::Full).then(material_x).flatten();
-    let when = match measured {
-        Some(_) => "measured in this run",
-        None => "recorded on 2026-11-23",
-    };
-    let (theirs, milliseconds, ours) = measured.unwrap_or((4045, 13.3, 208));
-    let row = |method: &str, what: &str, instructions: u64| {
-        let mut row = Row::new("peer", method, &format!("{WORK}; {what}; {when}"));
-        row.instructions = Some(instructions);
-        row
-    };
-    let mut other = row("MaterialX 1.39", "its standard surface, values as uniforms", theirs);
-    other.cost_ns = Some(milliseconds * 1e6);
-    other.note = Some("the time is that of its generator, from the surface to the text of the shader".to_owned());
-    [row("our shader", "what the values do not need is left out", ours), other]
+/// The row of another program: what was measured of it, or what was recorded and why it is not measured.
+fn other<T>(mut row: Row, measured: Result<T, String>, recorded: T, fill: impl Fn(&mut Row, T)) -> Row {
+    match measured {
+        Ok(figures) => fill(&mut row, figures),
+        Err(why) => {
+            fill(&mut row, recorded);
+            row.recorded = Some(RECORDED.to_owned());
+            row.note = Some(
+                [row.note, Some(format!("not measured in this run: {why}"))]
+                    .into_iter()
+                    .flatten()
+                    .collect::<Vec<_>>()
+                    .join("; "),
+            );
+        }
+    }
+    row
 }
 
-/// Instructions of MaterialX's shader, the milliseconds of its generator, instructions of ours; none where MaterialX, its
-/// script or the tools that it calls are not there.
-fn material_x() -> Option<(u64, f64, u64)> {
-    let folder = std::env::temp_dir().join(format!("halfvector-report-shader-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).ok()?;
-    let path = folder.join("ours.spv");
-    std::fs::write(&path, default_surface()?).ok()?;
-    let output = Command::new("python3").arg(MATERIAL_X).arg(&path).stderr(Stdio::null()).output();
-    // What is left of a temporary folder does no harm.
-    let _ = std::fs::remove_dir_all(&folder);
-    let text = String::from_utf8(output.ok()?.stdout).ok()?;
-    let mut numbers = text.split_whitespace();
-    Some((numbers.next()?.parse().ok()?, numbers.next()?.parse().ok()?, numbers.next()?.parse().ok()?))
+/// MaterialX's generator and ours at a surface that nobody has touched: instructions of the fragment stage.
+fn shaders() -> [Row; 2] {
+    const WORK: &str = "the fragment stage of a surface with its default values under one light and a prefiltered environment, after \
+                        spirv-opt -O";
+    let mut ours = Row::new("peer", "our shader", &format!("{WORK}; what the values do not need is left out"));
+    let spirv = default_surface().ok_or_else(|| "no shader was made".to_owned());
+    match spirv.and_then(|spirv| optimised_instructions(&spirv)) {
+        Ok(count) => ours.instructions = Some(count),
+        Err(why) => ours.note = Some(format!("not counted: {why}")),
+    }
+    let mut theirs = Row::new("peer", "MaterialX", &format!("{WORK}; its standard surface, values as uniforms"));
+    theirs.note = Some("the time is that of its generator, from the surface to the text of the shader".to_owned());
+    let recorded = Generated { version: "1.39.5".to_owned(), milliseconds: 12.9, instructions: 4045 };
+    let theirs = other(theirs, generated(), recorded, |row, found| {
+        row.instructions = Some(found.instructions);
+        row.cost_ns = Some(found.milliseconds * 1e6);
+        row.note = Some(format!("version {}; {}", found.version, row.note.clone().unwrap_or_default()));
+    });
+    [ours, theirs]
 }
 
 /// One evaluation of a metal's lobe among many, on one core.
 fn lobes(effort: Effort) -> Vec<Row> {
     const WORK: &str = "evaluation of a GGX metal with RGB reflectance, one of many, on one core";
-    let mut row = Row::new("peer", "our batches", &format!("{WORK}; measured in this run"));
+    let mut row = Row::new("peer", "our batches", WORK);
     our_evaluation(effort, &mut row);
-    let measured = (effort == Effort::Full).then(mitsuba).flatten();
-    let domain = match measured {
-        Some(_) => format!("{WORK}; measured in this run, LLVM backend"),
-        None => format!(
-            "{WORK}; recorded on 2026-11-22, Intel Xeon of family 6, model 207 at 3.0 GHz: 239 million a second"
-        ),
-    };
-    let mut other = Row::new("peer", "Mitsuba 3", &domain);
-    other.cost_batch_ns = Some(measured.unwrap_or(1e3 / 239.0));
-    vec![row, other]
+    let theirs = Row::new("peer", "Mitsuba 3", &format!("{WORK}; its LLVM backend"));
+    // 209 million a second.
+    let recorded = ("3.9.1".to_owned(), 209.0);
+    let theirs = other(theirs, mitsuba_rate(effort.pick(10, 35)), recorded, |row, (version, rate)| {
+        row.cost_batch_ns = Some(1e3 / rate);
+        row.note = Some(format!("version {version}"));
+    });
+    vec![row, theirs]
 }
 
 /// Puts the time of one of our evaluations into the row.
@@ -118,14 +126,6 @@ fn our_evaluation(effort: Effort, row: &mut Row) {
     row.take_batch_time(measured(&mut [&mut run], effort.pick(200, 2000))[0], COUNT);
 }
 
-/// Nanoseconds of one of Mitsuba's evaluations; none where it or its script is not there.
-fn mitsuba() -> Option<f64> {
-    let output = Command::new("python3").args([MITSUBA, "--rates"]).stderr(Stdio::null()).output().ok()?;
-    let text = String::from_utf8(output.stdout).ok()?;
-    let rate: f64 = text.split_whitespace().next()?.parse().ok()?;
-    output.status.success().then_some(1e3 / rate)
-}
-
 /// Faces of a cube as Filament names its files, in our order.
 const FACES: [&str; 6] = ["px", "nx", "py", "ny", "pz", "nz"];
 
@@ -147,6 +147,7 @@ fn bakes(effort: Effort) -> Vec<Row> {
     let read = std::fs::read(&map).ok().and_then(|bytes| halfvector_ibl::load(&bytes, "sky.hdr").ok());
     let Some(environment) = read else { return Vec::new() };
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    let mut absent = None;
     let mut baked = None;
     for _ in 0..effort.pick(1, 5) {
         let before = processor_seconds(false);
@@ -161,8 +162,10 @@ fn bakes(effort: Effort) -> Vec<Row> {
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .status();
-        if made.is_ok_and(|status| status.success()) {
-            theirs.extend(seconds_since(before, true));
+        match made {
+            Ok(status) if status.success() => theirs.extend(seconds_since(before, true)),
+            Ok(status) => absent = Some(format!("cmgen ended with {status}")),
+            Err(error) => absent = Some(format!("cmgen could not be started ({error}); Filament's releases have it")),
         }
     }
     let our_levels = baked.map(|baked| Levels {
@@ -179,19 +182,26 @@ fn bakes(effort: Effort) -> Vec<Row> {
     let _ = std::fs::remove_dir_all(&folder);
     let Source::Equirect(map) = &environment.source else { return Vec::new() };
     let truth = Quadrature::new(map);
-    let row = |method: &str, what: &str, seconds: Vec<f64>, levels: Option<Levels>| {
-        let mut row = Row::new("peer", method, &format!("{WORK}; {what}, measured in this run; {AGAINST}"));
-        row.cost_ns = (!seconds.is_empty()).then(|| median(seconds) * 1e9);
+    let row = |method: &str, what: &str, seconds: &[f64], levels: Option<Levels>| {
+        let mut row = Row::new("peer", method, &format!("{WORK}; {what}; {AGAINST}"));
+        let least = seconds.iter().copied().fold(f64::INFINITY, f64::min);
+        row.cost_ns = least.is_finite().then_some(least * 1e9);
+        row.cost_spread = (seconds.len() > 2).then(|| median(seconds.to_vec()) / least - 1.0);
         if let Some(levels) = levels {
             levels.errors(&truth, effort.pick(24, 400)).fill(&mut row);
         }
-        row.cost_ns.is_some().then_some(row)
+        row
     };
-    let rows = [
-        row("our bake", "levels, irradiance and harmonics", ours, our_levels),
-        row("Filament's cmgen", "its levels alone, 1,024 samples", theirs, their_levels),
-    ];
-    rows.into_iter().flatten().collect()
+    let ours = row("our bake", "levels, irradiance and harmonics", &ours, our_levels);
+    let made = if theirs.is_empty() { Err(absent.unwrap_or("nothing was timed".to_owned())) } else { Ok(None) };
+    let theirs = row("Filament's cmgen", "its levels alone, 1,024 samples", &theirs, their_levels);
+    // Seconds, and the errors.
+    let recorded = Some([9.58, 0.0406, 0.187]);
+    let theirs = other(theirs, made, recorded, |row, figures| {
+        let Some([seconds, rms, largest]) = figures else { return };
+        (row.cost_ns, row.error_rms, row.error_max) = (Some(seconds * 1e9), Some(rms), Some(largest));
+    });
+    vec![ours, theirs]
 }
 
 impl Levels {

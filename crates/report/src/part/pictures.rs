@@ -9,6 +9,7 @@
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
@@ -20,16 +21,15 @@ use halfvector_graph::needs::ShaderOutput;
 use halfvector_graph::node_def::Default as Unconnected;
 use halfvector_ibl::{BakedEnvironment, LoadedEnvironment, bake};
 use halfvector_raster::{RasterOptions, draw};
-use halfvector_reference::metrics::{FlipOptions, flip_hdr};
+use halfvector_reference::metrics::{FlipOptions, flip_hdr, noisy_error};
 use halfvector_reference::{Reference, RenderOptions as ReferenceOptions};
 use halfvector_render::RenderOptions;
 use halfvector_scene::{BuiltinMesh, MeshSource, Picture, Scene, bake_options, needs};
 
 use super::shaders::instructions;
 use super::stations::{Station, shared, stations};
-use crate::noise;
 use crate::timing::median;
-use crate::{Effort, Row};
+use crate::{Effort, Row, Run};
 
 const FOLDER: &str = "examples";
 
@@ -38,12 +38,30 @@ const SAMPLES: u32 = 4;
 
 /// Measures the part. What is not timed is made for several examples at once: truths, bakes, and first pictures, which wait for
 /// compilers. Then each picture is timed while nothing else runs.
-pub fn rows(effort: Effort) -> Vec<Row> {
-    let stations = stations();
-    let kept = Kept::default();
-    let prepared = shared(&stations, &examples(), |station, path| Example::prepared(path, station, &kept, effort));
-    let timed = |(station, example): (usize, Option<Example>)| Some(example?.rows(stations[station].as_ref(), effort));
-    prepared.into_iter().filter_map(timed).flatten().collect()
+pub fn rows(run: &Run<'_>) -> Vec<Row> {
+    rows_of(&examples(), run)
+}
+
+/// The rows of some examples: their files.
+pub fn rows_of(examples: &[PathBuf], run: &Run<'_>) -> Vec<Row> {
+    let (stations, kept) = (stations(), Kept::default());
+    let done = AtomicUsize::new(0);
+    let one_done = || (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / (2 * examples.len()) as f64;
+    let mut rows = Vec::new();
+    // As many at a time as keep every core busy, so that what is finished by then can be kept.
+    for some in examples.chunks(3 * stations.len()) {
+        let prepared = shared(&stations, some, |station, path| {
+            let example = Example::prepared(path, station, &kept, run.effort());
+            run.at(one_done());
+            example
+        });
+        for (station, example) in prepared {
+            let station = stations[station].as_ref();
+            rows.extend(example.map(|example| example.rows(station, run.effort())).into_iter().flatten());
+            run.keep(&rows, one_done());
+        }
+    }
+    rows
 }
 
 /// The documents of the folder itself, in order of name; those of folders within it are for other ends.
@@ -104,13 +122,14 @@ struct View {
 
 impl View {
     fn new(scene: Scene, kept: &Kept, station: Option<&Station>, size: u32) -> View {
-        let baked = kept.baked(&scene);
+        // Without a device nothing is drawn of it.
+        let baked = station.and_then(|_| kept.baked(&scene));
         let drawn = station.and_then(|station| station.draw(&scene, baked.as_ref(), &options(size)));
         View { scene, baked, picture: drawn.map(|(picture, _)| picture) }
     }
 
-    /// Draws on the device and puts time and instructions into the row: the median of several pictures without what is made
-    /// only once.
+    /// Draws on the device and puts time and instructions into the row: the fastest of several pictures without what is made
+    /// only once, and how much longer the one in the middle took.
     fn time(&self, station: &Station, size: u32, effort: Effort, row: &mut Row) -> Option<()> {
         let (mut seconds, mut device): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
         for _ in 0..effort.pick(3, 9) {
@@ -119,8 +138,10 @@ impl View {
             seconds.push(start.elapsed().as_secs_f64());
             device.extend(time);
         }
-        let shortest = device.iter().copied().fold(f64::INFINITY, f64::min);
-        row.cost_ns = Some(median(seconds) * 1e9);
+        let least = |times: &[f64]| times.iter().copied().fold(f64::INFINITY, f64::min);
+        let (fastest, shortest) = (least(&seconds), least(&device));
+        row.cost_ns = Some(fastest * 1e9);
+        row.cost_spread = Some(median(seconds) / fastest - 1.0);
         if shortest.is_finite() && shortest > 0.0 {
             row.gpu_ns = Some(shortest * 1e9 / f64::from(size * size * SAMPLES * SAMPLES));
             row.gpu_spread = Some(median(device) / shortest - 1.0);
@@ -180,6 +201,7 @@ struct Example {
     size: u32,
     truth: Vec<[f64; 3]>,
     noise: Vec<[f64; 3]>,
+    baked: Option<Arc<BakedEnvironment>>,
     specialised: View,
     unspecialised: View,
     /// With the default methods, where the example has others; and with the report's.
@@ -211,6 +233,7 @@ impl Example {
             size,
             truth: picture.radiance(),
             noise: picture.standard_error,
+            baked: kept.baked(&scene),
             specialised: view(specialised(&scene)),
             unspecialised: view(unspecialised(&scene)),
             defaults: (scene.methods != Methods::default()).then(|| with(Methods::default())),
@@ -230,8 +253,7 @@ impl Example {
     fn rows(&self, station: Option<&Station>, effort: Effort) -> Vec<Row> {
         let size = self.size;
         let mut rows = Vec::new();
-        let against =
-            "the reference; the noise of the reference is taken off, of the largest error four standard errors";
+        let against = "the reference";
         let noise = Some(self.noise.as_slice());
         let mut timed = |view: &View, mut row: Row, truth: &[[f64; 3]], noise: Option<&[[f64; 3]]>| {
             let (Some(station), Some(picture)) = (station, &view.picture) else { return };
@@ -252,7 +274,7 @@ impl Example {
     }
 
     fn on_cpu(&self, against: &str) -> Option<Row> {
-        let View { scene, baked, .. } = &self.specialised;
+        let (scene, baked) = (&self.specialised.scene, &self.baked);
         let (width, height) = (self.size, self.size);
         let options = RasterOptions { width, height, samples_per_side: SAMPLES, fold: Fold::Export };
         let start = Instant::now();
@@ -278,11 +300,14 @@ fn fill(row: &mut Row, test: &[[f64; 3]], truth: &[[f64; 3]], noise: Option<&[[f
     let width = truth.len().isqrt().max(1);
     let mean = truth.iter().flatten().sum::<f64>() / (3 * truth.len().max(1)) as f64;
     let scale = |x: f64| x / mean.max(f64::MIN_POSITIVE);
-    let error = noise::error(test, truth, noise);
+    let error = noisy_error(test, truth, noise);
     row.error_rms = error.rms.map(scale);
     row.error_bound = error.bound.map(scale);
     row.error_max = error.largest.map(scale);
     row.at = error.at.map(|i| format!("column {}, row {}", i % width, i / width));
+    if error.largest == Some(0.0) {
+        row.at = Some("nowhere: the pictures are the same".to_owned());
+    }
     if error.rms.is_none() {
         row.note = Some("the noise of the reference hides the error".to_owned());
     }

@@ -4,6 +4,7 @@
 //! Nothing is folded: the material's numbers are uniforms. Methods that bakes and files follow, and not shaders, have no row.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::Vec3;
 use halfvector_codegen::target::{export, target};
@@ -18,8 +19,8 @@ use halfvector_render::RenderOptions;
 use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, Light, MeshSource, Scene, bake_options, needs};
 
 use super::stations::{Station, shared, station};
-use crate::timing::median;
-use crate::{Effort, Row};
+use crate::timing::{SITTINGS, median};
+use crate::{Row, Run};
 
 /// Pixels along a side of what is drawn: a square that fills the picture.
 const SIDE: u32 = 256;
@@ -57,13 +58,14 @@ struct Subject {
 }
 
 /// Measures the part.
-pub fn rows(effort: Effort) -> Vec<Row> {
+pub fn rows(run: &Run<'_>) -> Vec<Row> {
     let subjects = subjects();
     let mut rows: Vec<Row> = subjects.iter().map(counted_row).collect();
+    run.keep(&rows, 0.05);
     // Without a device its columns stay empty.
     let stations = [station()];
     let Some(name) = stations.iter().flatten().map(Station::name).next() else { return rows };
-    for (row, time) in rows.iter_mut().zip(device_times(&stations, &subjects, effort)) {
+    for (row, time) in rows.iter_mut().zip(device_times(&stations, &subjects, run)) {
         let Some((shortest, spread)) = time else { continue };
         row.gpu_ns = Some(shortest * 1e9 / f64::from(SIDE * SIDE));
         row.gpu_spread = Some(spread);
@@ -103,6 +105,11 @@ fn counted_row(subject: &Subject) -> Row {
     let mut row = Row::new(subject.term, subject.method, &format!("{DOMAIN}{}", subject.with));
     row.instructions = shader(&subject.scene).and_then(|shader| instructions(&shader));
     row
+}
+
+/// Whether a counted row is of a shader whose pictures are no files: it is not drawn.
+pub(crate) fn reads_no_file(row: &Row) -> bool {
+    ["parallax occlusion", "normal map without parallax"].contains(&row.method.as_str())
 }
 
 /// Whether a row is of the method that a shader's row is of: some rows say more of it behind a comma.
@@ -253,7 +260,7 @@ pub(super) fn instructions(shader: &Shader) -> Option<u64> {
 
 /// SPIR-V 1.0, 2.3 "Physical Layout of a SPIR-V Module and Instruction": five words of header, then instructions, each with its
 /// count of words and its number in the first.
-fn counted(words: &[u32]) -> Option<u64> {
+pub(super) fn counted(words: &[u32]) -> Option<u64> {
     const ENTRY_POINT: u32 = 15;
     const FUNCTION: u32 = 54;
     const FUNCTION_END: u32 = 56;
@@ -289,11 +296,13 @@ fn counted(words: &[u32]) -> Option<u64> {
     totals.get(place(entry?)?).copied()
 }
 
-/// The device's time of each subject's pass [s], and how much longer the turn in the middle took; none for what it refuses, and for
-/// all when it has no clock. The shortest of the turns: a software device shares its cores with whatever else the machine does,
-/// which only ever adds. A turn is one of all shaders, so that those of one subject lie apart; what makes the same shader is drawn
-/// once for all.
-fn device_times<'s>(stations: &[Option<Station>], subjects: &'s [Subject], effort: Effort) -> Vec<Option<(f64, f64)>> {
+/// The device's time of each subject's pass [s], and how sure it is; none for what it refuses, and for all when it has no clock.
+///
+/// A sitting draws each shader several times, one after the other, and takes the shortest: a software device shares its cores with
+/// whatever else the machine does, which only ever adds. Sittings of one shader lie apart, and every other one goes through the
+/// shaders from the last to the first. The time is that of the fastest sitting, the spread how much longer the one in the middle
+/// took. What makes the same shader is drawn once for all.
+fn device_times<'s>(stations: &[Option<Station>], subjects: &'s [Subject], run: &Run<'_>) -> Vec<Option<(f64, f64)>> {
     let environment = studio();
     let mut baked: Vec<(BakeOptions, Arc<BakedEnvironment>)> = Vec::new();
     let mut light = |scene: &Scene| {
@@ -317,19 +326,30 @@ fn device_times<'s>(stations: &[Option<Station>], subjects: &'s [Subject], effor
     };
     let places: Vec<Option<usize>> = subjects.iter().map(place).collect();
     let options = RenderOptions { width: SIDE, height: SIDE, samples_per_side: 1, ..RenderOptions::default() };
+    let (ready, all) = (AtomicUsize::new(0), different.len() as f64);
     let drawn = shared(stations, &different, |station, (_, scene, light)| {
-        station.is_some_and(|station| station.draw(scene, Some(light), &options).is_some())
+        let drawn = station.is_some_and(|station| station.draw(scene, Some(light), &options).is_some());
+        run.at(0.05 + 0.45 * (ready.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all);
+        drawn
     });
     let mut times: Vec<Vec<f64>> = vec![Vec::new(); different.len()];
-    for _ in 0..effort.pick(5, 31) {
-        for (((_, scene, light), &(station, drawn)), times) in different.iter().zip(&drawn).zip(&mut times) {
+    for sitting in 0..SITTINGS {
+        let mut order: Vec<usize> = (0..different.len()).collect();
+        if sitting % 2 == 1 {
+            order.reverse();
+        }
+        for (done, at) in order.into_iter().enumerate() {
+            let ((_, scene, light), (station, drawn)) = (&different[at], drawn[at]);
             let Some(station) = stations[station].as_ref().filter(|_| drawn) else { continue };
-            times.extend(station.draw(scene, Some(light), &options).and_then(|(_, time)| time));
+            let pass = || station.draw(scene, Some(light), &options).and_then(|(_, time)| time);
+            let shortest = (0..run.effort().pick(3, 8)).filter_map(|_| pass()).min_by(f64::total_cmp);
+            times[at].extend(shortest.filter(|time| *time > 0.0));
+            run.at(0.5 + 0.5 * (sitting as f64 + done as f64 / all) / SITTINGS as f64);
         }
     }
     let found = |place: &Option<usize>| {
         let times = &times[(*place)?];
-        let shortest = times.iter().copied().min_by(f64::total_cmp).filter(|time| *time > 0.0)?;
+        let shortest = times.iter().copied().min_by(f64::total_cmp)?;
         Some((shortest, median(times.clone()) / shortest - 1.0))
     };
     places.iter().map(found).collect()

@@ -23,9 +23,9 @@ const F0: [[f64; 3]; 2] = [[0.04; 3], [1.0, 0.71, 0.29]];
 const ROWS: usize = 128;
 const PIECES: usize = 2;
 
-/// Two rows for each n.v and roughness, over directions of the normal and both reflectances: prefiltered light times
-/// (F0 a + b), both without numerical error, against the integral of light times the lobe, which is the other method. What each
-/// takes is the same for all of them: the split sum reads `baked` and the table of albedos, the integral the map.
+/// A row for each n.v and roughness, over directions of the normal and both reflectances: prefiltered light times
+/// (F0 a + b), both without numerical error, against the integral of light times the lobe. What it takes is the same for all of
+/// them: it reads `baked` and the table of albedos. The integral, which reads the map, has one row, and no error: it is the truth.
 pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment, baked: &BakedEnvironment) -> Vec<Row> {
     let Source::Equirect(map) = &environment.source else { return Vec::new() };
     // Both sides see this map: how coarse it is changes what is lit, not what the model loses.
@@ -52,14 +52,15 @@ pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment, 
                 add(&mut errors, split, exact, mean, || format!("normal {n:.3?}, F0 {f0:?}"));
             }
         }
-        let (mut split, mut whole) = (costs[0].clone(), costs[1].clone());
-        (split.domain, whole.domain) = (domain.clone(), domain);
-        errors.fill(&mut split);
-        (whole.error_rms, whole.error_max) = (Some(0.0), Some(0.0));
-        [split, whole]
+        let mut row = Row { domain, ..costs[0].clone() };
+        errors.fill(&mut row);
+        row
     };
     let cases: Vec<(f64, f64)> = N_DOT_V.iter().flat_map(|&v| ROUGHNESS.map(|roughness| (v, roughness))).collect();
-    cases.into_par_iter().flat_map_iter(row).collect()
+    let mut rows: Vec<Row> = cases.into_par_iter().map(row).collect();
+    let domain = format!("{name}: the integral of light times the lobe over every texel; the truth of the other rows");
+    rows.push(Row { domain, ..costs[1].clone() });
+    rows
 }
 
 /// A row of each way with its time and memory: one reflection on one core.

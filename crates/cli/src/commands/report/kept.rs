@@ -1,0 +1,118 @@
+//! The report's folder: what is measured is written there as soon as it is finished, and an interrupt says what stands there.
+
+use std::collections::HashSet;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use halfvector_report::{Effort, PARTS, Report, Row, page, write};
+
+use crate::failure::Failure;
+use crate::output::{note, write_file};
+
+/// What a shell says of a command that an interrupt ended: 128 and the signal's number.
+const INTERRUPTED: i32 = 130;
+
+/// A report on its way.
+#[derive(Clone)]
+pub(super) struct Kept {
+    folder: PathBuf,
+    report: Arc<Mutex<Report>>,
+}
+
+impl Kept {
+    /// Of a folder; when the command is interrupted, it says what stands there and ends.
+    pub(super) fn begun(folder: &Path, effort: Effort) -> Kept {
+        let report = Arc::new(Mutex::new(Report::begun(effort)));
+        let kept = Kept { folder: folder.to_owned(), report };
+        let told = kept.clone();
+        on_interrupt(move || {
+            // Held to the end: no file is half written.
+            let report = told.locked();
+            note(in_words(&report, &told.folder));
+            std::process::exit(INTERRUPTED);
+        });
+        kept
+    }
+
+    fn locked(&self) -> MutexGuard<'_, Report> {
+        self.report.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Writes the rows of a part that are finished so far, where there are any. What cannot be written now cannot be at the part's
+    /// end, and is told then.
+    pub(super) fn part_so_far(&self, part: &str, rows: &[Row]) {
+        if !rows.is_empty() {
+            let mut report = self.locked();
+            report.take(part, rows.to_vec());
+            let _ = self.write(&report, part);
+        }
+    }
+
+    /// Writes a part that is measured to its end.
+    pub(super) fn part(&self, part: &str, rows: Vec<Row>) -> Result<(), Failure> {
+        let mut report = self.locked();
+        report.take(part, rows);
+        report.parts.push(part.to_owned());
+        self.write(&report, part)
+    }
+
+    /// The report as it is.
+    pub(super) fn report(&self) -> Report {
+        self.locked().clone()
+    }
+
+    fn write(&self, report: &Report, part: &str) -> Result<(), Failure> {
+        self.clear(report);
+        write_file(&self.csv(part), write::csv(&report.rows_of(part)).as_bytes())?;
+        write_file(&self.folder.join("report.json"), report.to_json().as_bytes())?;
+        write_file(&self.folder.join("index.html"), page::html(report).as_bytes())
+    }
+
+    fn csv(&self, part: &str) -> PathBuf {
+        self.folder.join(format!("{part}.csv"))
+    }
+
+    /// Takes out the CSV files of parts that this report has not: those that a report wrote, by their names and their first line.
+    fn clear(&self, report: &Report) {
+        let own: HashSet<&str> = report.rows.iter().map(|row| row.part.as_str()).collect();
+        for part in PARTS.iter().filter(|part| !own.contains(part.name)) {
+            let path = self.csv(part.name);
+            let mut first = String::new();
+            let is_read =
+                std::fs::File::open(&path).is_ok_and(|file| BufReader::new(file).read_line(&mut first).is_ok());
+            if is_read && write::is_csv_head(&first) {
+                // One that cannot be removed stays, as a file of an older report.
+                let _ = std::fs::remove_file(path);
+            }
+        }
+    }
+}
+
+fn in_words(report: &Report, folder: &Path) -> String {
+    let folder = folder.display();
+    let begun = report.rows.iter().map(|row| row.part.as_str()).rfind(|part| !report.parts.iter().any(|p| p == part));
+    let mut parts = report.parts.clone();
+    parts.extend(begun.map(|part| format!("{} rows of {part}", report.rows_of(part).len())));
+    if parts.is_empty() {
+        return format!("interrupted before the first row was measured: nothing new stands in {folder}");
+    }
+    format!(
+        "interrupted: what is measured is kept in {folder}: {} (index.html, report.json, CSV files)",
+        parts.join(", ")
+    )
+}
+
+/// Ends the process on an interrupt, after a last word. Where the system has no such signal an interrupt ends it without a word.
+fn on_interrupt(last_word: impl FnOnce() + Send + 'static) {
+    #[cfg(unix)]
+    if let Ok(mut signals) = signal_hook::iterator::Signals::new([signal_hook::consts::SIGINT]) {
+        std::thread::spawn(move || {
+            if signals.forever().next().is_some() {
+                last_word();
+            }
+        });
+    }
+    #[cfg(not(unix))]
+    drop(last_word);
+}

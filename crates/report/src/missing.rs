@@ -1,0 +1,136 @@
+//! Why figures are not there: for each part, term and figure of which a row has none, one reason. Rows that say more of it have a
+//! note of their own.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Row;
+use crate::part::shaders;
+
+/// Why some rows of a part and term have no figure of a kind.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Null {
+    /// The rows' part.
+    pub part: String,
+    /// Their term.
+    pub term: String,
+    /// The figure's name in a row.
+    pub figure: String,
+    /// The reason.
+    pub why: String,
+}
+
+/// Figures that one would look for in every row.
+const FIGURES: [(&str, fn(&Row) -> bool); 8] = [
+    ("error_rms", |row| row.error_rms.is_none()),
+    ("error_max", |row| row.error_max.is_none()),
+    ("at", |row| row.at.is_none()),
+    ("cost_ns", |row| row.cost_ns.is_none()),
+    ("cost_batch_ns", |row| row.cost_batch_ns.is_none()),
+    ("instructions", |row| row.instructions.is_none()),
+    ("gpu_ns", |row| row.gpu_ns.is_none()),
+    ("bytes", |row| row.bytes.is_none()),
+];
+
+/// The reasons for all rows, in the order of the rows; the same reason for the same part, term and figure once.
+pub fn nulls(rows: &[Row]) -> Vec<Null> {
+    let device = rows.iter().any(|row| row.gpu.is_some());
+    let mut found: Vec<Null> = Vec::new();
+    for row in rows {
+        for (figure, _) in FIGURES.iter().filter(|(_, is_null)| is_null(row)) {
+            let null = Null {
+                part: row.part.clone(),
+                term: row.term.clone(),
+                figure: (*figure).to_owned(),
+                why: why(row, figure, device).to_owned(),
+            };
+            if !found.contains(&null) {
+                found.push(null);
+            }
+        }
+    }
+    found
+}
+
+/// The names of the figures that a row has not.
+pub fn of(row: &Row) -> Vec<&'static str> {
+    FIGURES.iter().filter(|(_, is_null)| is_null(row)).map(|(figure, _)| *figure).collect()
+}
+
+fn why(row: &Row, figure: &str, device: bool) -> &'static str {
+    match figure {
+        "error_rms" | "error_max" | "at" => no_error(row, figure),
+        "cost_ns" | "cost_batch_ns" => no_time(row, figure),
+        "instructions" | "gpu_ns" => no_shader(row, figure, device),
+        _ => match row.part.as_str() {
+            "brdf" | "maps" | "energy" | "mips" | "precision" => {
+                "it reads no table, and of maps only what every method reads"
+            }
+            "shaders" => "what a method reads stands in the rows of its errors",
+            _ => "what it reads is not counted",
+        },
+    }
+}
+
+fn no_error(row: &Row, figure: &str) -> &'static str {
+    match (row.part.as_str(), row.term.as_str()) {
+        ("shaders", _) => "a shader's cost: the errors of the method are rows of their own",
+        ("maps", "normal_decode") => "a single texel: its error is the largest one",
+        ("pictures", _) if figure == "at" => "no pixel is farther off than the reference's noise",
+        ("pictures", _) => "the noise of the reference hides it: error_bound is what it is at most",
+        ("precision", _) => "the form in 64 bits is what the others are held against",
+        ("ibl", "split_sum") => "the sum over all light is the truth",
+        ("peers", _) if figure == "at" && row.error_max.is_some() => "it was not recorded",
+        ("peers", _) => "speed or length is compared, at the same work",
+        _ => "it has no finite error: the inputs of the row say why",
+    }
+}
+
+fn no_time(row: &Row, figure: &str) -> &'static str {
+    let is_batch = figure == "cost_batch_ns";
+    match (row.part.as_str(), row.term.as_str()) {
+        ("shaders", _) => "a shader is counted, and timed on the device",
+        ("ibl", "prefilter") => "a bake is timed as a whole, and shared out among its texels in cost_batch_ns",
+        ("precision", _) => "its arithmetic is what is looked at",
+        ("peers", _) if row.instructions.is_some() => "a shader is counted",
+        (_, "normal_frame") => "the methods are timed under the term normal",
+        ("energy", "dfg") if !is_batch => "a lookup of any table takes what the row table says",
+        _ if is_batch => "it has no form for batches",
+        _ => "it is not timed by itself: instructions and gpu_ns are those of a shader with it",
+    }
+}
+
+fn no_shader(row: &Row, figure: &str, device: bool) -> &'static str {
+    match row.part.as_str() {
+        "pictures" if row.method == "cpu" => "the processor draws it",
+        "precision" | "peers" => "it is no whole shader of ours, or was not drawn",
+        _ if !device && figure == "gpu_ns" => "no device was found",
+        "shaders" if shaders::reads_no_file(row) => "the height map that it reads is no file, so that it is not drawn",
+        "shaders" => "the device has no clock, or refused it",
+        _ if figure == "gpu_ns" && row.instructions.is_some() => "its shader is not drawn: see the row of part shaders",
+        "maps" | "brdf" | "energy" | "mips" | "ibl" | "lobes" | "specular_aa" => {
+            "no shader has it, or the part shaders was not measured: it is chosen in the library, or by a bake"
+        }
+        _ => "it was not measured",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_null_has_a_reason_and_each_is_told_once() {
+        let row = |method: &str| Row {
+            part: "brdf".into(),
+            cost_ns: Some(1.0),
+            error_rms: Some(0.1),
+            ..Row::new("d", method, "all")
+        };
+        let rows = [row("a"), row("b")];
+        let found = nulls(&rows);
+        let figures: Vec<&str> = found.iter().map(|null| null.figure.as_str()).collect();
+        assert_eq!(figures, ["error_max", "at", "cost_batch_ns", "instructions", "gpu_ns", "bytes"]);
+        assert_eq!(of(&rows[0]), figures);
+        assert!(found.iter().all(|null| !null.why.is_empty()));
+    }
+}
