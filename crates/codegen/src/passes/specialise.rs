@@ -15,9 +15,8 @@ pub(crate) fn constants(program: &Program<'_>, index: &Index) -> Constants {
     let literal = |socket: &str| stage.root(socket).and_then(|id| stage.arena.as_literal(id));
     let is = |socket: &str, x: f32| literal(socket).is_some_and(|l| l.is_all(x));
     let fixed = ["ior", "specular"].iter().all(|socket| literal(socket).is_some());
-    if !is("metallic", 0.0) || !fixed {
-        return Constants { dielectric_f0: None };
-    }
+    let roughness = literal("perceptual_roughness").filter(|_| is("metallic", 0.0) && fixed);
+    let Some(roughness) = roughness.map(|l| l.components()[0]) else { return Constants { dielectric: None } };
     let mut probe = Stage::default();
     if let Some(ior) = literal("ior") {
         let id = probe.arena.literal(ior.ty, &ior.components());
@@ -32,7 +31,7 @@ pub(crate) fn constants(program: &Program<'_>, index: &Index) -> Constants {
     probe.roots.insert("dielectric_f0", f0);
     fold_stage(&mut probe, index, &mut Vec::new());
     let folded = probe.root("dielectric_f0").and_then(|id| probe.arena.as_literal(id));
-    Constants { dielectric_f0: folded.map(|l| l.components()[0]) }
+    Constants { dielectric: folded.map(|l| [l.components()[0], roughness]) }
 }
 
 /// The sockets that shading reads, of a surface that has all of them.
