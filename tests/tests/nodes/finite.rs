@@ -122,11 +122,13 @@ fn extreme_rows(node: &Node) -> Vec<Vec<f32>> {
 }
 
 /// Whatever finite numbers come into a pattern, a number comes out: positions and scales at the ends of f32, whose product
-/// overflows, and pixels that are as wide. What is no number comes out as it likes, but it comes out.
+/// overflows, and pixels that are as wide. Elsewhere what is too large for f32 is infinite, as in all arithmetic, and a shader's
+/// end guards its colour; how many nodes that is is told. What is no number comes out as it likes, but it comes out.
 #[test]
 fn patterns_are_finite_for_every_finite_input() {
-    let mut failures = Vec::new();
-    for def in Library::standard().iter().filter(|def| def.id.starts_with("procedural/")) {
+    let (mut failures, mut overflows) = (Vec::new(), std::collections::BTreeMap::<&str, usize>::new());
+    for def in Library::standard().iter().filter(|def| !def.id.starts_with("surface/")) {
+        let category = def.id.split('/').next().unwrap_or_default();
         for ty in types(def) {
             for vertex in [false, true] {
                 if vertex && def.vertex_function.is_none() {
@@ -135,16 +137,20 @@ fn patterns_are_finite_for_every_finite_input() {
                 let node = Node::of(def, ty, vertex);
                 let rows = extreme_rows(&node);
                 let wide = vec![f32::MAX; node.defaults().len()];
-                let far = node.run::<f32>(&rows, Some((&wide, &wide)));
-                for (row, found) in rows.iter().zip(node.call::<f32>(&rows)).chain(rows.iter().zip(far)) {
-                    if found.iter().any(|x| !x.is_finite()) {
-                        failures.push(format!("{} of {ty:?}, vertex {vertex}: {found:?} at {row:?}", def.id));
-                        break;
-                    }
-                }
                 node.call::<f32>(&[f32::NAN, f32::INFINITY].map(|x| vec![x; wide.len()]));
+                let found = [node.call::<f32>(&rows), node.run::<f32>(&rows, Some((&wide, &wide)))];
+                let all = found.iter().flat_map(|found| rows.iter().zip(found));
+                let Some((row, found)) = all.into_iter().find(|(_, found)| found.iter().any(|x| !x.is_finite())) else {
+                    continue;
+                };
+                if category == "procedural" {
+                    failures.push(format!("{} of {ty:?}, vertex {vertex}: {found:?} at {row:?}", def.id));
+                } else {
+                    *overflows.entry(category).or_default() += 1;
+                }
             }
         }
     }
+    println!("functions that give what is no finite number for some finite ones, by category: {overflows:?}");
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
