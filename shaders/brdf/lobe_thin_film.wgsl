@@ -39,13 +39,16 @@ struct ThinFilmLit {
 /// Both of a ThinFilmLit by one loop: a film is long, and its code stands in the shader once.
 fn thin_film_lit(f0: vec3f, f90: vec3f, p: ThinFilm, lobe_cosine: f32, l_dot_h: f32) -> ThinFilmLit {
     let cosines = vec2f(lobe_cosine, l_dot_h);
-    var shifts = mat2x3f();
+    // The lobe's comes first and is handed on when the direction's comes.
+    var of_lobe = vec3f(0.0);
+    var shift = vec3f(0.0);
     var bare = vec3f(0.0);
     for (var i = 0u; i < 2u; i++) {
-        shifts = mat2x3f(shifts[1], thin_film_shift(f0, f90, p, cosines[i]));
+        of_lobe = shift;
+        shift = thin_film_shift(f0, f90, p, cosines[i]);
         bare = f_schlick(f0, f90, cosines[i]);
     }
-    return ThinFilmLit(shifts[0], bare + shifts[1]);
+    return ThinFilmLit(of_lobe, bare + shift);
 }
 
 /// The cosine l.h at which Schlick's F is the lobe's mean, from the split-sum pair: b / (a + b) is the mean of

@@ -135,22 +135,23 @@ impl Shading<'_, '_, '_> {
         };
         self.line(&format!("for (var i = 0u; i < {strips} + {}u; i++) {{", others.len()));
         self.line(&format!("    var lookup = vec4f({dir}, {roughness});"));
-        for (k, Lookup { dir, roughness, .. }) in rest.iter().enumerate() {
-            self.line(&format!("    if i == {strips} + {}u {{", k + 1));
-            self.line(&format!("        lookup = vec4f({dir}, {roughness});"));
-            self.line("    }");
-        }
         self.line("    var weight = 0.0;");
         self.line(&format!("    if i < {strips} {{"));
         self.line(&format!("        {strip}"));
         self.line(&format!("        lookup = vec4f({direction}, strip.perceptual_roughness);"));
         self.line("        weight = strip.weight;");
+        for (k, Lookup { dir, roughness, .. }) in rest.iter().enumerate() {
+            self.line(&format!("    }} else if i == {strips} + {}u {{", k + 1));
+            self.line(&format!("        lookup = vec4f({dir}, {roughness});"));
+        }
         self.line("    }");
         let sample = self.prefiltered("lookup.xyz", "lookup.w")?;
         self.line(&format!("    let seen = {sample};"));
         self.line("    strips += weight * vec4f(seen, 1.0);");
-        for (k, Lookup { name, .. }) in others.iter().enumerate() {
-            self.line(&format!("    {name} = select({name}, seen, i == {strips} + {k}u);"));
+        // What was seen last is handed on from name to name, so that each has its own in the end.
+        let next = rest.iter().map(|lookup| lookup.name).chain(["seen"]);
+        for (Lookup { name, .. }, next) in others.iter().zip(next) {
+            self.line(&format!("    {name} = {next};"));
         }
         self.line("}");
         self.line("let reflection = strips.rgb / strips.a;");
