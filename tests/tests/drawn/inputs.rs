@@ -67,7 +67,7 @@ impl Inputs {
         for binding in &golden.shader.reflection.bindings {
             match &binding.resource {
                 Resource::Uniform(block) => {
-                    let bytes = block.pack(|source: &UniformSource, numbers: &mut Vec<f32>| {
+                    let bytes = block.pack(|source: &UniformSource, numbers: &mut Vec<f64>| {
                         frame.fill(source, numbers);
                         object.fill(source, numbers);
                         fill_input(&golden.document, Library::standard(), block, source, numbers);

@@ -20,7 +20,7 @@ pub(crate) const COMPENSATION_MIN_ROUGHNESS: f32 = 0.4;
 /// The most that leaving the compensation out changes what the specular lobe reflects, in percent: the greatest f0 (1 - E)/E with
 /// E = a + b up to these two. On a display, whose codes go with the 2.2nd root of light or slower, it is less than one of 255
 /// steps, however bright the light and however dark the base. A test computes it by quadrature.
-pub(crate) const COMPENSATION_BOUND_PERCENT: f32 = 0.7;
+pub(crate) const COMPENSATION_BOUND_PERCENT: f32 = 0.8;
 
 /// What is left out of the shader of a surface that is no metal anywhere.
 pub(crate) const METAL: &str = "metal";
@@ -192,8 +192,8 @@ impl Known<'_, '_> {
                 },
                 Expr::Literal(literal) if literal.is_all(x) => {}
                 Expr::Input(input)
-                    if self.fold == Fold::Live && self.program.inputs[*input].value.iter().all(|value| *value == x) => {
-                }
+                    if self.fold == Fold::Live
+                        && self.program.inputs[*input].value.iter().all(|value| *value == f64::from(x)) => {}
                 _ => return false,
             }
         }
@@ -204,10 +204,12 @@ impl Known<'_, '_> {
     fn constant(&self, stage: &Stage<'_>, weight: Id) -> Option<f32> {
         match &stage.arena.get(weight).expr {
             Expr::Literal(literal) => literal.components().first().copied(),
-            Expr::Input(input) if self.fold == Fold::Live => self.program.inputs[*input].value.first().copied(),
+            Expr::Input(input) if self.fold == Fold::Live => {
+                self.program.inputs[*input].value.first().map(|x| *x as f32)
+            }
             Expr::Builtin { name: "saturate", arguments } => match &stage.arena.get(arguments[0]).expr {
                 Expr::Input(input) if self.fold == Fold::Live => {
-                    self.program.inputs[*input].value.first().map(|x| x.clamp(0.0, 1.0))
+                    self.program.inputs[*input].value.first().map(|x| x.clamp(0.0, 1.0) as f32)
                 }
                 _ => None,
             },
