@@ -15,16 +15,16 @@ fn coupling_single(f0: f32, f90: f32, dfg: vec2f) -> f32 {
 /// Share that is left under an interface whose specular lobe is compensated for multiple scattering by any of the
 /// methods: 1 - E_spec (1 + F_avg (1/E - 1)), a bound of them all.
 fn coupling_compensated(f0: f32, f90: f32, dfg: vec2f) -> f32 {
-    let average = f0 + (f90 - f0) * (1.0 / 21.0);
-    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
-    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
+    let average = mix(f0, f90, 1.0 / 21.0);
+    let bounced = mix(1.0, 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0), average);
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * bounced);
 }
 
 /// coupling_compensated of each channel: an interface under a film.
 fn coupling_colored(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
     let average = mix(f0, f90, 1.0 / 21.0);
-    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
-    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
+    let bounced = mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0)), average);
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * bounced);
 }
 
 /// What makes the coupling reciprocal: (1 - E_spec(l)) / (1 - E_spec,avg) for a light whose split-sum pair is `dfg`; times

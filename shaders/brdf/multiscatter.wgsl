@@ -9,8 +9,7 @@ const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
 /// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
 /// signature.
 fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
-    let gain = 1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0) - 1.0;
-    return 1.0 + saturate(f0) * gain;
+    return mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0)), saturate(f0));
 }
 
 /// Fdez-Aguera 2019, A Multiple-Scattering Microfacet Model for Real-Time Image Based Lighting: the part E_ms = 1 - (a + b)

@@ -82,51 +82,62 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let under_coat = coat_base(coat, frame.n_dot_v, coat_dfg);
     let sheen = Sheen(vec3f(0.2, 0.2, 0.3), 0.3);
     let under_sheen = sheen_base(sheen, frame.n_dot_v);
-    let under_layers = under_coat * under_sheen;
     var radiance = vec3f(0.0);
     for (var i = 0u; i < 2u; i++) {
         let light = directional_light_sample(lights.directional[i], in.world_position);
         let light_film = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, half_from_light(frame, light.dir).l_dot_h);
-        radiance += diffuse_eval(frame, light.dir, diffuse) * under_layers * light.illuminance;
-        radiance += anisotropic_lit(frame, light.dir, specular) * light_film * compensation * under_layers * light.illuminance;
-        radiance += transmission_eval(frame, light.dir, transmission) * transmission_gain * under_layers * light.illuminance;
-        radiance += coat_eval(frame, light.dir, coat) * under_sheen * light.illuminance;
-        radiance += sheen_eval(frame, light.dir, sheen) * light.illuminance;
+        var lit = diffuse_eval(frame, light.dir, diffuse);
+        lit += anisotropic_lit(frame, light.dir, specular) * light_film * compensation;
+        lit += transmission_eval(frame, light.dir, transmission) * transmission_gain;
+        lit = lit * under_coat + coat_eval(frame, light.dir, coat);
+        lit = lit * under_sheen + sheen_eval(frame, light.dir, sheen);
+        radiance += lit * light.illuminance;
     }
     let point_light = point_light_sample(lights.point, in.world_position);
     let point_light_film = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, half_from_light(frame, point_light.dir).l_dot_h);
-    radiance += diffuse_eval(frame, point_light.dir, diffuse) * under_layers * point_light.illuminance;
-    radiance += anisotropic_lit(frame, point_light.dir, specular) * point_light_film * compensation * under_layers * point_light.illuminance;
-    radiance += transmission_eval(frame, point_light.dir, transmission) * transmission_gain * under_layers * point_light.illuminance;
-    radiance += coat_eval(frame, point_light.dir, coat) * under_sheen * point_light.illuminance;
-    radiance += sheen_eval(frame, point_light.dir, sheen) * point_light.illuminance;
+    var point_lit = diffuse_eval(frame, point_light.dir, diffuse);
+    point_lit += anisotropic_lit(frame, point_light.dir, specular) * point_light_film * compensation;
+    point_lit += transmission_eval(frame, point_light.dir, transmission) * transmission_gain;
+    point_lit = point_lit * under_coat + coat_eval(frame, point_light.dir, coat);
+    point_lit = point_lit * under_sheen + sheen_eval(frame, point_light.dir, sheen);
+    radiance += point_lit * point_light.illuminance;
     for (var i = 0u; i < 3u; i++) {
         let light = spot_light_sample(lights.spot[i], in.world_position);
         let light_film = thin_film_fresnel(vec3f(0.040000003), vec3f(1.0), film, half_from_light(frame, light.dir).l_dot_h);
-        radiance += diffuse_eval(frame, light.dir, diffuse) * under_layers * light.illuminance;
-        radiance += anisotropic_lit(frame, light.dir, specular) * light_film * compensation * under_layers * light.illuminance;
-        radiance += transmission_eval(frame, light.dir, transmission) * transmission_gain * under_layers * light.illuminance;
-        radiance += coat_eval(frame, light.dir, coat) * under_sheen * light.illuminance;
-        radiance += sheen_eval(frame, light.dir, sheen) * light.illuminance;
+        var lit = diffuse_eval(frame, light.dir, diffuse);
+        lit += anisotropic_lit(frame, light.dir, specular) * light_film * compensation;
+        lit += transmission_eval(frame, light.dir, transmission) * transmission_gain;
+        lit = lit * under_coat + coat_eval(frame, light.dir, coat);
+        lit = lit * under_sheen + sheen_eval(frame, light.dir, sheen);
+        radiance += lit * light.illuminance;
     }
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, rotate_about_y(frame.normal, view.environment_rotation), 0.0);
-    radiance += diffuse_environment(diffuse, irradiance) * under_layers;
+    let behind = transmission_lookup(frame, transmission.eta, transmission.alpha);
+    let coat_mirror_dir = reflect(-frame.view_dir, frame.normal);
     var strips = vec4f(0.0);
-    for (var i = 0u; i < ANISOTROPIC_STRIPS; i++) {
-        let strip = anisotropic_strip(frame, tangent, alphas.x, alphas.y, f32(i));
-        strips += strip.weight * vec4f(environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(specular_direction(frame, strip.dir, strip.perceptual_roughness), view.environment_rotation), lod_geometric(strip.perceptual_roughness, view.environment_levels)), 1.0);
+    var transmitted = vec3f(0.0);
+    for (var i = 0u; i < ANISOTROPIC_STRIPS + 1u; i++) {
+        var lookup = vec4f(rotate_about_y(behind.dir, view.environment_rotation), behind.perceptual_roughness);
+        var weight = 0.0;
+        if i < ANISOTROPIC_STRIPS {
+            let strip = anisotropic_strip(frame, tangent, alphas.x, alphas.y, f32(i));
+            lookup = vec4f(rotate_about_y(specular_direction(frame, strip.dir, strip.perceptual_roughness), view.environment_rotation), strip.perceptual_roughness);
+            weight = strip.weight;
+        }
+        let seen = environment_sample_hermite(prefiltered_radiance, linear_clamp, lookup.xyz, lod_geometric(lookup.w, view.environment_levels));
+        strips += weight * vec4f(seen, 1.0);
+        transmitted = seen;
     }
     let reflection = strips.rgb / strips.a;
-    radiance += anisotropic_environment(specular, reflection, dfg) * compensation * under_layers;
-    let behind = transmission_lookup(frame, transmission.eta, transmission.alpha);
-    let transmitted = environment_sample_hermite(prefiltered_radiance, linear_clamp, rotate_about_y(behind.dir, view.environment_rotation), lod_geometric(behind.perceptual_roughness, view.environment_levels));
-    radiance += transmission_environment(transmission, 0.040000003, transmitted, dfg) * under_layers;
-    let coat_mirror_dir = reflect(-frame.view_dir, frame.normal);
     let coat_reflection = environment_sample(prefiltered_radiance, linear_clamp, rotate_about_y(specular_direction(frame, coat_mirror_dir, 0.1), view.environment_rotation), lod_geometric(0.1, view.environment_levels));
-    radiance += coat_environment(coat, coat_reflection, coat_dfg) * under_sheen;
     let sheen_around = environment_sample(irradiance_over_pi, linear_clamp, rotate_about_y(sheen_direction(frame), view.environment_rotation), 0.0);
     let sheen_middle = environment_sample(prefiltered_radiance, linear_clamp, rotate_about_y(frame.normal, view.environment_rotation), view.environment_levels - 2.0);
-    radiance += sheen_environment(sheen, frame.n_dot_v, sheen_ring(sheen, sheen_around, sheen_middle));
+    var reflected = diffuse_environment(diffuse, irradiance);
+    reflected += anisotropic_environment(specular, reflection, dfg) * compensation;
+    reflected += transmission_environment(transmission, 0.040000003, transmitted, dfg);
+    reflected = reflected * under_coat + coat_environment(coat, coat_reflection, coat_dfg);
+    reflected = reflected * under_sheen + sheen_environment(sheen, frame.n_dot_v, sheen_ring(sheen, sheen_around, sheen_middle));
+    radiance += reflected;
     radiance = finite_or_zero(radiance);
     let display = srgb_from_linear(tone_map_pbr_neutral(radiance * view.exposure));
     return vec4f(display, 1.0);
@@ -169,8 +180,8 @@ const ARRIVING: f32 = 0.9975;
 /// coupling_compensated of each channel: an interface under a film.
 fn coupling_colored(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
     let average = mix(f0, f90, 1.0 / 21.0);
-    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
-    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
+    let bounced = mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0)), average);
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * bounced);
 }
 
 // ---- brdf/diffuse.wgsl
@@ -590,17 +601,17 @@ struct ThinFilm {
 /// What the film adds to the reflectance at the cosine l.h of a base of reflectances f0 and f90, in [-1, 1]:
 /// weight (f90 F_film - F(f0, f90)). For the light of a whole lobe it is added to both f0 and f90.
 fn thin_film_shift(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
-    return thin_film_fresnel(f0, f90, p, l_dot_h) - f_schlick(f0, f90, l_dot_h);
-}
-
-/// Reflectance at the cosine l.h, `p.weight` of the base under the film. It takes the place of F in a lobe lit from one
-/// direction.
-fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
     // ior_from_f0 of each channel.
     let s2 = clamp(f0 / max(f90, vec3f(F90_FLOOR)), vec3f(0.0), vec3f(F0_CEILING));
     let s = 1.0 + sqrt(s2);
     let film = f90 * f_thin_film_dielectric(p.ior, p.thickness, s * s / (1.0 - s2), l_dot_h);
-    return mix(f_schlick(f0, f90, l_dot_h), film, saturate(p.weight));
+    return saturate(p.weight) * (film - f_schlick(f0, f90, l_dot_h));
+}
+
+/// Reflectance at the cosine l.h, `p.weight` of the base under the film: F(f0, f90) + thin_film_shift. It takes the place of
+/// F in a lobe lit from one direction.
+fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
+    return f_schlick(f0, f90, l_dot_h) + thin_film_shift(f0, f90, p, l_dot_h);
 }
 
 /// The cosine l.h at which Schlick's F is the lobe's mean, from the split-sum pair: b / (a + b) is the mean of
@@ -715,8 +726,7 @@ const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
 /// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
 /// signature.
 fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
-    let gain = 1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0) - 1.0;
-    return 1.0 + saturate(f0) * gain;
+    return mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0)), saturate(f0));
 }
 
 // ---- brdf/sheen.wgsl
@@ -895,14 +905,16 @@ fn environment_sample_hermite(cube: texture_cube<f32>, cube_sampler: sampler, di
     return select(mix_levels(near, far, t), mix(near.rgb, far.rgb, t), lod < 1.0);
 }
 
-/// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
+// Texels on a side of the split-sum table.
+const DFG_SIZE: f32 = 45.0;
+
+/// Split-sum scale and bias (a, b) from a table of DFG_SIZE x DFG_SIZE texels: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
 /// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
-    let size = vec2f(textureDimensions(table));
     let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
-    let uv = (place * (size - 1.0) + 0.5) / size;
+    let uv = place * vec2f((DFG_SIZE - 1.0) / DFG_SIZE) + vec2f(0.5 / DFG_SIZE);
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
 

@@ -84,23 +84,26 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     var radiance = vec3f(0.0);
     for (var i = 0u; i < 2u; i++) {
         let light = directional_light_sample(lights.directional[i], in.world_position);
-        radiance += diffuse_eval(frame, light.dir, diffuse) * light.illuminance;
-        radiance += specular_eval(frame, light.dir, specular) * compensation * light.illuminance;
+        var lit = diffuse_eval(frame, light.dir, diffuse);
+        lit += specular_eval(frame, light.dir, specular) * compensation;
+        radiance += lit * light.illuminance;
     }
     let point_light = point_light_sample(lights.point, in.world_position);
-    radiance += diffuse_eval(frame, point_light.dir, diffuse) * point_light.illuminance;
-    radiance += specular_eval(frame, point_light.dir, specular) * compensation * point_light.illuminance;
+    var point_lit = diffuse_eval(frame, point_light.dir, diffuse);
+    point_lit += specular_eval(frame, point_light.dir, specular) * compensation;
+    radiance += point_lit * point_light.illuminance;
     for (var i = 0u; i < 3u; i++) {
         let light = spot_light_sample(lights.spot[i], in.world_position);
-        radiance += diffuse_eval(frame, light.dir, diffuse) * light.illuminance;
-        radiance += specular_eval(frame, light.dir, specular) * compensation * light.illuminance;
+        var lit = diffuse_eval(frame, light.dir, diffuse);
+        lit += specular_eval(frame, light.dir, specular) * compensation;
+        radiance += lit * light.illuminance;
     }
     let mirror_dir = reflect(-frame.view_dir, frame.normal);
     let reflection_dir = rotate_about_y(specular_direction(frame, mirror_dir, roughness.r), view.environment_rotation);
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, rotate_about_y(frame.normal, view.environment_rotation), 0.0);
-    radiance += diffuse_environment(diffuse, irradiance);
     let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(roughness.r, view.environment_levels));
     let horizon = horizon_cone(dot(mirror_dir, world_normal), dot(frame.normal, world_normal), frame.n_dot_v, roughness.r);
+    radiance += diffuse_environment(diffuse, irradiance);
     radiance += specular_environment(specular, reflection, dfg) * compensation * horizon;
     radiance = finite_or_zero(radiance);
     let display = srgb_from_linear(tone_map_pbr_neutral(radiance * view.exposure));
@@ -115,9 +118,9 @@ const ARRIVING: f32 = 0.9975;
 /// Share that is left under an interface whose specular lobe is compensated for multiple scattering by any of the
 /// methods: 1 - E_spec (1 + F_avg (1/E - 1)), a bound of them all.
 fn coupling_compensated(f0: f32, f90: f32, dfg: vec2f) -> f32 {
-    let average = f0 + (f90 - f0) * (1.0 / 21.0);
-    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
-    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
+    let average = mix(f0, f90, 1.0 / 21.0);
+    let bounced = mix(1.0, 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0), average);
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * bounced);
 }
 
 // ---- brdf/dfg.wgsl
@@ -318,8 +321,7 @@ const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
 /// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
 /// signature.
 fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
-    let gain = 1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0) - 1.0;
-    return 1.0 + saturate(f0) * gain;
+    return mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0)), saturate(f0));
 }
 
 // ---- color.wgsl
@@ -400,14 +402,16 @@ fn environment_sample_hermite(cube: texture_cube<f32>, cube_sampler: sampler, di
     return select(mix_levels(near, far, t), mix(near.rgb, far.rgb, t), lod < 1.0);
 }
 
-/// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
+// Texels on a side of the split-sum table.
+const DFG_SIZE: f32 = 45.0;
+
+/// Split-sum scale and bias (a, b) from a table of DFG_SIZE x DFG_SIZE texels: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
 /// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
-    let size = vec2f(textureDimensions(table));
     let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
-    let uv = (place * (size - 1.0) + 0.5) / size;
+    let uv = place * vec2f((DFG_SIZE - 1.0) / DFG_SIZE) + vec2f(0.5 / DFG_SIZE);
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
 

@@ -72,14 +72,15 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
     let diffuse = Diffuse(diffuse_albedo * coupling_compensated(0.040000003, 1.0, dfg), roughness.r);
     let directional_light = directional_light_sample(lights.directional, in.world_position);
-    var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * directional_light.illuminance;
-    radiance += specular_eval(frame, directional_light.dir, specular) * compensation * directional_light.illuminance;
+    var directional_lit = diffuse_eval(frame, directional_light.dir, diffuse);
+    directional_lit += specular_eval(frame, directional_light.dir, specular) * compensation;
+    var radiance = directional_lit * directional_light.illuminance;
     let mirror_dir = reflect(-frame.view_dir, frame.normal);
     let reflection_dir = specular_direction(frame, mirror_dir, roughness.r);
     let irradiance = irradiance_sh2(view.irradiance_sh, frame.normal);
-    radiance += diffuse_environment(diffuse, irradiance);
     let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(roughness.r, view.environment_levels));
     let horizon = horizon_cone(dot(mirror_dir, world_normal), dot(frame.normal, world_normal), frame.n_dot_v, roughness.r);
+    radiance += diffuse_environment(diffuse, irradiance);
     radiance += specular_environment(specular, reflection, dfg) * compensation * horizon;
     radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
@@ -93,9 +94,9 @@ const ARRIVING: f32 = 0.9975;
 /// Share that is left under an interface whose specular lobe is compensated for multiple scattering by any of the
 /// methods: 1 - E_spec (1 + F_avg (1/E - 1)), a bound of them all.
 fn coupling_compensated(f0: f32, f90: f32, dfg: vec2f) -> f32 {
-    let average = f0 + (f90 - f0) * (1.0 / 21.0);
-    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
-    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
+    let average = mix(f0, f90, 1.0 / 21.0);
+    let bounced = mix(1.0, 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0), average);
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * bounced);
 }
 
 // ---- brdf/dfg.wgsl
@@ -347,8 +348,7 @@ const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
 /// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
 /// signature.
 fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
-    let gain = 1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0) - 1.0;
-    return 1.0 + saturate(f0) * gain;
+    return mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0)), saturate(f0));
 }
 
 // ---- entry/transform.wgsl

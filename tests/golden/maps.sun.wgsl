@@ -73,8 +73,9 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let compensation = energy_compensation(specular.f0, specular.f90, dfg);
     let diffuse = Diffuse(diffuse_albedo * coupling_compensated(0.040000003, 1.0, dfg), roughness.r);
     let directional_light = directional_light_sample(lights.directional, in.world_position);
-    var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * directional_light.illuminance;
-    radiance += specular_eval(frame, directional_light.dir, specular) * compensation * directional_light.illuminance;
+    var directional_lit = diffuse_eval(frame, directional_light.dir, diffuse);
+    directional_lit += specular_eval(frame, directional_light.dir, specular) * compensation;
+    var radiance = directional_lit * directional_light.illuminance;
     radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
 }
@@ -87,9 +88,9 @@ const ARRIVING: f32 = 0.9975;
 /// Share that is left under an interface whose specular lobe is compensated for multiple scattering by any of the
 /// methods: 1 - E_spec (1 + F_avg (1/E - 1)), a bound of them all.
 fn coupling_compensated(f0: f32, f90: f32, dfg: vec2f) -> f32 {
-    let average = f0 + (f90 - f0) * (1.0 / 21.0);
-    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
-    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
+    let average = mix(f0, f90, 1.0 / 21.0);
+    let bounced = mix(1.0, 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0), average);
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * bounced);
 }
 
 // ---- brdf/diffuse.wgsl
@@ -262,8 +263,7 @@ const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
 /// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
 /// signature.
 fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
-    let gain = 1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0) - 1.0;
-    return 1.0 + saturate(f0) * gain;
+    return mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0)), saturate(f0));
 }
 
 // ---- entry/transform.wgsl
@@ -289,14 +289,16 @@ fn tangent_in_world(world_from_object: mat4x4f, tangent: vec4f) -> vec4f {
 
 // ---- ibl/environment.wgsl
 
-/// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
+// Texels on a side of the split-sum table.
+const DFG_SIZE: f32 = 45.0;
+
+/// Split-sum scale and bias (a, b) from a table of DFG_SIZE x DFG_SIZE texels: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
 /// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
-    let size = vec2f(textureDimensions(table));
     let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
-    let uv = (place * (size - 1.0) + 0.5) / size;
+    let uv = place * vec2f((DFG_SIZE - 1.0) / DFG_SIZE) + vec2f(0.5 / DFG_SIZE);
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
 

@@ -1,10 +1,8 @@
 // Names * / } fn main() { of any script, made by Halfvector
 // serves: 1 directional light; returns linear radiance, Rec. 709
-// methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, coupling=view, dfg=table
+// methods: d=ggx, v=correlated, fresnel=schlick, diffuse=lambert, compensation=turquin, coupling=view, dfg=table
 // left out: environment light: the scene has no environment: 2 cubes and their lookups saved
 // left out: metal: metallic is 0: f0 comes from the index of refraction alone
-// left out: energy compensation: f0 is 0.040 and fixed: it would change radiance by less than 0.7 % of that of a
-//     uniform environment
 // left out: emission: it is 0
 // left out: opacity: the material is opaque
 // left out: displacement: height is 0
@@ -60,10 +58,12 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let frame = frame_from_normal(world_normal, view_dir);
     let specular = Specular(vec3f(0.040000003), vec3f(1.0), alpha_from_perceptual_roughness(max(discard_3, PUNCTUAL_ROUGHNESS_FLOOR)));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, discard_3);
-    let diffuse = Diffuse(vec3f(0.8) * coupling_single(0.040000003, 1.0, dfg), discard_3);
+    let compensation = energy_compensation(specular.f0, specular.f90, dfg);
+    let diffuse = Diffuse(vec3f(0.8) * coupling_compensated(0.040000003, 1.0, dfg), discard_3);
     let directional_light = directional_light_sample(lights.directional, in.world_position);
-    var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * directional_light.illuminance;
-    radiance += specular_eval(frame, directional_light.dir, specular) * directional_light.illuminance;
+    var directional_lit = diffuse_eval(frame, directional_light.dir, diffuse);
+    directional_lit += specular_eval(frame, directional_light.dir, specular) * compensation;
+    var radiance = directional_lit * directional_light.illuminance;
     radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
 }
@@ -73,10 +73,12 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
 // 1 less what a table of 45 x 45 texels may be too low by: so that base and interface do not gain.
 const ARRIVING: f32 = 0.9975;
 
-/// Share 1 - E_spec(v) of a diffuse BRDF that is left under an interface of reflectances f0 and f90 that scatters once:
-/// E_spec = f0 a + f90 b. Kulla and Conty 2017; OpenPBR 1.1 section 3. View-only.
-fn coupling_single(f0: f32, f90: f32, dfg: vec2f) -> f32 {
-    return saturate(ARRIVING - f0 * dfg.x - f90 * dfg.y);
+/// Share that is left under an interface whose specular lobe is compensated for multiple scattering by any of the
+/// methods: 1 - E_spec (1 + F_avg (1/E - 1)), a bound of them all.
+fn coupling_compensated(f0: f32, f90: f32, dfg: vec2f) -> f32 {
+    let average = mix(f0, f90, 1.0 / 21.0);
+    let bounced = mix(1.0, 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0), average);
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * bounced);
 }
 
 // ---- brdf/diffuse.wgsl
@@ -240,6 +242,18 @@ fn specular_lit(frame: Frame, l: vec3f, p: Specular) -> f32 {
     return v_smith_ggx_correlated(frame.n_dot_v, h.n_dot_l, h.l_dot_h, p.alpha) * h.n_dot_l * d;
 }
 
+// ---- brdf/multiscatter.wgsl
+
+// Smallest albedo divided by. GGX's smallest is 1 - ln 2 = 0.307 (alpha 1, n.v 1); only an empty table is below this.
+const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
+
+/// Turquin 2019, Practical Multiple Scattering Compensation for Microfacet Models: the factor 1 + f0 (1/E - 1) on the
+/// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
+/// signature.
+fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
+    return mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0)), saturate(f0));
+}
+
 // ---- entry/transform.wgsl
 
 /// A point of the object in world space: M p.
@@ -255,14 +269,16 @@ fn normal_in_world(normal_from_object: mat3x3f, normal: vec3f) -> vec3f {
 
 // ---- ibl/environment.wgsl
 
-/// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
+// Texels on a side of the split-sum table.
+const DFG_SIZE: f32 = 45.0;
+
+/// Split-sum scale and bias (a, b) from a table of DFG_SIZE x DFG_SIZE texels: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
 /// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
-    let size = vec2f(textureDimensions(table));
     let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
-    let uv = (place * (size - 1.0) + 0.5) / size;
+    let uv = place * vec2f((DFG_SIZE - 1.0) / DFG_SIZE) + vec2f(0.5 / DFG_SIZE);
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
 
@@ -334,7 +350,7 @@ fn finite_or_zero(c: vec3f) -> vec3f {
 ///
 /// A chess board: 0 where column and row are both even or both odd, 1 elsewhere. Averaged over the pixel.
 fn node_procedural_checker(uv: vec2f, count: vec2f) -> f32 {
-    let p = uv * count;
+    let p = held2(uv * count);
     let w = fwidth(p);
     return odd_share(odd_share(0.0, p.x, w.x), p.y, w.y);
 }
@@ -349,6 +365,15 @@ fn odd_share(share: f32, x: f32, width: f32) -> f32 {
 
 // A window narrower than this part of a period counts as none: differences of integrals have no digits left there.
 const WINDOW_FLOOR: f32 = 1e-3;
+
+// A pattern is held beyond this many periods: from 2^23 on an f32 has no fraction left, and what is near the end of f32 would come to
+// infinity, of which there is no fraction.
+const PATTERN_END: f32 = 1e9;
+
+/// A point of a pattern in the plane.
+fn held2(p: vec2f) -> vec2f {
+    return clamp(p, vec2f(-PATTERN_END), vec2f(PATTERN_END));
+}
 
 /// The mean of a pulse wave over a window around x: 1 in the first `duty` of each unit, 0 in the rest.
 fn pulse_wave(x: f32, width: f32, duty: f32) -> f32 {

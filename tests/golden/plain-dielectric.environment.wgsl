@@ -1,9 +1,8 @@
 // Plain dielectric, made by Halfvector
 // serves: an environment; returns linear radiance, Rec. 709
-// methods: coupling=view, dfg=table, prefilter=ggx, level_map=hermite, irradiance=cube, reflection=leaning
+// methods: compensation=turquin, coupling=view, dfg=table, prefilter=ggx, level_map=hermite, irradiance=cube,
+//     reflection=leaning
 // left out: metal: metallic is 0: f0 comes from the index of refraction alone
-// left out: energy compensation: f0 is 0.040 and fixed: it would change radiance by less than 0.7 % of that of a
-//     uniform environment
 // left out: emission: it is 0
 // left out: occlusion: it is 1
 // left out: horizon: the shading normal is the geometry's: no reflection comes from below
@@ -59,12 +58,13 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let frame = frame_from_normal(world_normal, view_dir);
     let specular = Specular(vec3f(0.040000003), vec3f(1.0), alpha_from_perceptual_roughness(parameters.perceptual_roughness));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, parameters.perceptual_roughness);
-    let diffuse = Diffuse(parameters.base_color * coupling_single(0.040000003, 1.0, dfg), parameters.perceptual_roughness);
+    let compensation = energy_compensation(specular.f0, specular.f90, dfg);
+    let diffuse = Diffuse(parameters.base_color * coupling_compensated(0.040000003, 1.0, dfg), parameters.perceptual_roughness);
     let reflection_dir = specular_direction(frame, reflect(-frame.view_dir, frame.normal), parameters.perceptual_roughness);
     let irradiance = environment_sample(irradiance_over_pi, linear_clamp, frame.normal, 0.0);
-    var radiance = diffuse_environment(diffuse, irradiance);
     let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(parameters.perceptual_roughness, view.environment_levels));
-    radiance += specular_environment(specular, reflection, dfg);
+    var radiance = diffuse_environment(diffuse, irradiance);
+    radiance += specular_environment(specular, reflection, dfg) * compensation;
     radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
 }
@@ -74,10 +74,12 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
 // 1 less what a table of 45 x 45 texels may be too low by: so that base and interface do not gain.
 const ARRIVING: f32 = 0.9975;
 
-/// Share 1 - E_spec(v) of a diffuse BRDF that is left under an interface of reflectances f0 and f90 that scatters once:
-/// E_spec = f0 a + f90 b. Kulla and Conty 2017; OpenPBR 1.1 section 3. View-only.
-fn coupling_single(f0: f32, f90: f32, dfg: vec2f) -> f32 {
-    return saturate(ARRIVING - f0 * dfg.x - f90 * dfg.y);
+/// Share that is left under an interface whose specular lobe is compensated for multiple scattering by any of the
+/// methods: 1 - E_spec (1 + F_avg (1/E - 1)), a bound of them all.
+fn coupling_compensated(f0: f32, f90: f32, dfg: vec2f) -> f32 {
+    let average = mix(f0, f90, 1.0 / 21.0);
+    let bounced = mix(1.0, 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0), average);
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * bounced);
 }
 
 // ---- brdf/dfg.wgsl
@@ -163,6 +165,18 @@ fn specular_environment(p: Specular, prefiltered_radiance: vec3f, dfg: vec2f) ->
     return prefiltered_radiance * specular_albedo(p.f0, p.f90, dfg);
 }
 
+// ---- brdf/multiscatter.wgsl
+
+// Smallest albedo divided by. GGX's smallest is 1 - ln 2 = 0.307 (alpha 1, n.v 1); only an empty table is below this.
+const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
+
+/// Turquin 2019, Practical Multiple Scattering Compensation for Microfacet Models: the factor 1 + f0 (1/E - 1) on the
+/// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
+/// signature.
+fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
+    return mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0)), saturate(f0));
+}
+
 // ---- entry/transform.wgsl
 
 /// A point of the object in world space: M p.
@@ -216,14 +230,16 @@ fn environment_sample_hermite(cube: texture_cube<f32>, cube_sampler: sampler, di
     return select(mix_levels(near, far, t), mix(near.rgb, far.rgb, t), lod < 1.0);
 }
 
-/// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
+// Texels on a side of the split-sum table.
+const DFG_SIZE: f32 = 45.0;
+
+/// Split-sum scale and bias (a, b) from a table of DFG_SIZE x DFG_SIZE texels: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
 /// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
-    let size = vec2f(textureDimensions(table));
     let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
-    let uv = (place * (size - 1.0) + 0.5) / size;
+    let uv = place * vec2f((DFG_SIZE - 1.0) / DFG_SIZE) + vec2f(0.5 / DFG_SIZE);
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
 

@@ -3,8 +3,8 @@
 // methods: dfg=table, prefilter=ggx, level_map=hermite, reflection=leaning
 // left out: diffuse lobe: transmission_weight is 1: what enters the surface leaves it behind
 // left out: metal: metallic is 0: f0 comes from the index of refraction alone
-// left out: energy compensation: f0 is 0.040 and fixed: it would change radiance by less than 0.7 % of that of a
-//     uniform environment
+// left out: energy compensation: f0 is 0.040 and perceptual roughness 0.200, both fixed: it would change the specular
+//     lobe by less than 0.7 %
 // left out: emission: it is 0
 // left out: occlusion: it is 1
 // left out: horizon: the shading normal is the geometry's: no reflection comes from below
@@ -58,8 +58,8 @@ fn fs_main(in: Varyings, @builtin(front_facing) front_facing: bool) -> @location
     let transmission = Transmission(vec3f(0.8, 0.9, 1.0) * 1.0, 1.5, alpha_from_perceptual_roughness(0.2));
     let reflection_dir = specular_direction(frame, reflect(-frame.view_dir, frame.normal), 0.2);
     let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(0.2, view.environment_levels));
-    var radiance = specular_environment(specular, reflection, dfg);
     let transmitted = environment_sample_hermite(prefiltered_radiance, linear_clamp, -specular_direction(frame, frame.view_dir, 0.2), lod_geometric(0.2, view.environment_levels));
+    var radiance = specular_environment(specular, reflection, dfg);
     radiance += transmission_environment(transmission, 0.07692309, transmitted, dfg);
     radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
@@ -200,14 +200,16 @@ fn environment_sample_hermite(cube: texture_cube<f32>, cube_sampler: sampler, di
     return select(mix_levels(near, far, t), mix(near.rgb, far.rgb, t), lod < 1.0);
 }
 
-/// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
+// Texels on a side of the split-sum table.
+const DFG_SIZE: f32 = 45.0;
+
+/// Split-sum scale and bias (a, b) from a table of DFG_SIZE x DFG_SIZE texels: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
 /// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
-    let size = vec2f(textureDimensions(table));
     let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
-    let uv = (place * (size - 1.0) + 0.5) / size;
+    let uv = place * vec2f((DFG_SIZE - 1.0) / DFG_SIZE) + vec2f(0.5 / DFG_SIZE);
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
 

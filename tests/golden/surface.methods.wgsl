@@ -92,7 +92,9 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let dfg = dfg_karis(frame.n_dot_v, specular_roughness);
     let film = ThinFilm(parameters.thin_film_weight, 1000.0 * parameters.thin_film_thickness, parameters.thin_film_ior);
     let film_cosine = thin_film_cosine(dfg);
-    let film_shift = thin_film_shift(f0, vec3f(f90), film, film_cosine);
+    let directional_light = directional_light_sample(lights.directional, in.world_position);
+    let film_lit = thin_film_lit(f0, vec3f(f90), film, film_cosine, half_from_light(frame, directional_light.dir).l_dot_h);
+    let film_shift = film_lit.shift;
     let dielectric_shift = film_shift * (1.0 - parameters.metallic);
     let film_through = thin_film_through(dielectric_shift, vec3f(dielectric_f0_2), vec3f(parameters.specular), film_cosine);
     let specular = Anisotropic(f0 + film_shift, vec3f(f90) + film_shift, tangent, alphas.x, alphas.y);
@@ -105,33 +107,43 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let under_coat = coat_base(coat, frame.n_dot_v, coat_dfg);
     let sheen = Sheen(parameters.sheen_color, parameters.sheen_roughness);
     let under_sheen = sheen_base(sheen, frame.n_dot_v);
-    let under_layers = under_coat * under_sheen;
-    let directional_light = directional_light_sample(lights.directional, in.world_position);
-    let directional_light_film = thin_film_fresnel(f0, vec3f(f90), film, half_from_light(frame, directional_light.dir).l_dot_h);
-    var radiance = diffuse_eval(frame, directional_light.dir, diffuse) * under_layers * directional_light.illuminance;
-    radiance += anisotropic_lit(frame, directional_light.dir, specular) * directional_light_film * compensation * under_layers * directional_light.illuminance;
-    radiance += transmission_eval(frame, directional_light.dir, transmission) * transmission_gain * under_layers * directional_light.illuminance;
-    radiance += coat_eval(frame, directional_light.dir, coat) * under_sheen * directional_light.illuminance;
-    radiance += sheen_eval(frame, directional_light.dir, sheen) * directional_light.illuminance;
+    var directional_lit = diffuse_eval(frame, directional_light.dir, diffuse);
+    directional_lit += anisotropic_lit(frame, directional_light.dir, specular) * film_lit.fresnel * compensation;
+    directional_lit += transmission_eval(frame, directional_light.dir, transmission) * transmission_gain;
+    directional_lit = directional_lit * under_coat + coat_eval(frame, directional_light.dir, coat);
+    directional_lit = directional_lit * under_sheen + sheen_eval(frame, directional_light.dir, sheen);
+    var radiance = directional_lit * directional_light.illuminance;
     let irradiance = irradiance_sh2(view.irradiance_sh, frame.normal);
-    radiance += diffuse_environment(diffuse, irradiance) * parameters.occlusion * under_layers;
+    let behind = transmission_lookup(frame, transmission.eta, transmission.alpha);
+    let coat_mirror_dir = reflect(-frame.view_dir, frame.normal);
     var strips = vec4f(0.0);
-    for (var i = 0u; i < ANISOTROPIC_STRIPS; i++) {
-        let strip = anisotropic_strip(frame, tangent, alphas.x, alphas.y, f32(i));
-        strips += strip.weight * vec4f(environment_sample_hermite(prefiltered_radiance, linear_clamp, specular_direction(frame, strip.dir, strip.perceptual_roughness), lod_geometric(strip.perceptual_roughness, view.environment_levels)), 1.0);
+    var transmitted = vec3f(0.0);
+    var coat_reflection = vec3f(0.0);
+    for (var i = 0u; i < ANISOTROPIC_STRIPS + 2u; i++) {
+        var lookup = vec4f(behind.dir, behind.perceptual_roughness);
+        var weight = 0.0;
+        if i < ANISOTROPIC_STRIPS {
+            let strip = anisotropic_strip(frame, tangent, alphas.x, alphas.y, f32(i));
+            lookup = vec4f(specular_direction(frame, strip.dir, strip.perceptual_roughness), strip.perceptual_roughness);
+            weight = strip.weight;
+        } else if i == ANISOTROPIC_STRIPS + 1u {
+            lookup = vec4f(specular_direction(frame, coat_mirror_dir, parameters.coat_roughness), parameters.coat_roughness);
+        }
+        let seen = environment_sample_hermite(prefiltered_radiance, linear_clamp, lookup.xyz, lod_geometric(lookup.w, view.environment_levels));
+        strips += weight * vec4f(seen, 1.0);
+        transmitted = coat_reflection;
+        coat_reflection = seen;
     }
     let reflection = strips.rgb / strips.a;
-    radiance += anisotropic_environment(specular, reflection, dfg) * compensation * specular_occlusion_cone(frame.n_dot_v, parameters.occlusion, specular_roughness) * under_layers;
-    let behind = transmission_lookup(frame, transmission.eta, transmission.alpha);
-    let transmitted = environment_sample_hermite(prefiltered_radiance, linear_clamp, behind.dir, lod_geometric(behind.perceptual_roughness, view.environment_levels));
-    radiance += transmission_environment(transmission, dielectric_f0_2, transmitted, dfg) * under_layers;
-    let coat_mirror_dir = reflect(-frame.view_dir, frame.normal);
-    let coat_reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, specular_direction(frame, coat_mirror_dir, parameters.coat_roughness), lod_geometric(parameters.coat_roughness, view.environment_levels));
-    radiance += coat_environment(coat, coat_reflection, coat_dfg) * specular_occlusion_cone(frame.n_dot_v, parameters.occlusion, parameters.coat_roughness) * under_sheen;
     let sheen_around = irradiance_sh2(view.irradiance_sh, normalize(sheen_direction(frame)));
     let sheen_middle = environment_sample(prefiltered_radiance, linear_clamp, frame.normal, view.environment_levels - 2.0);
-    radiance += sheen_environment(sheen, frame.n_dot_v, sheen_ring(sheen, sheen_around, sheen_middle)) * parameters.occlusion;
-    radiance += parameters.emission * under_layers;
+    var reflected = diffuse_environment(diffuse, irradiance) * parameters.occlusion;
+    reflected += anisotropic_environment(specular, reflection, dfg) * compensation * specular_occlusion_cone(frame.n_dot_v, parameters.occlusion, specular_roughness);
+    reflected += transmission_environment(transmission, dielectric_f0_2, transmitted, dfg);
+    reflected = reflected * under_coat + coat_environment(coat, coat_reflection, coat_dfg) * specular_occlusion_cone(frame.n_dot_v, parameters.occlusion, parameters.coat_roughness);
+    reflected = reflected * under_sheen + sheen_environment(sheen, frame.n_dot_v, sheen_ring(sheen, sheen_around, sheen_middle)) * parameters.occlusion;
+    radiance += reflected;
+    radiance += parameters.emission * under_coat * under_sheen;
     radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
 }
@@ -173,8 +185,8 @@ const ARRIVING: f32 = 0.9975;
 /// coupling_compensated of each channel: an interface under a film.
 fn coupling_colored(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
     let average = mix(f0, f90, 1.0 / 21.0);
-    let gain = 1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0) - 1.0;
-    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * (1.0 + average * gain));
+    let bounced = mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, 0.1, 1.0)), average);
+    return saturate(ARRIVING - (f0 * dfg.x + f90 * dfg.y) * bounced);
 }
 
 // ---- brdf/dfg.wgsl
@@ -616,17 +628,34 @@ struct ThinFilm {
 /// What the film adds to the reflectance at the cosine l.h of a base of reflectances f0 and f90, in [-1, 1]:
 /// weight (f90 F_film - F(f0, f90)). For the light of a whole lobe it is added to both f0 and f90.
 fn thin_film_shift(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
-    return thin_film_fresnel(f0, f90, p, l_dot_h) - f_exact(f0, f90, l_dot_h);
-}
-
-/// Reflectance at the cosine l.h, `p.weight` of the base under the film. It takes the place of F in a lobe lit from one
-/// direction.
-fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
     // ior_from_f0 of each channel.
     let s2 = clamp(f0 / max(f90, vec3f(F90_FLOOR)), vec3f(0.0), vec3f(F0_CEILING));
     let s = 1.0 + sqrt(s2);
     let film = f90 * f_thin_film_dielectric(p.ior, p.thickness, s * s / (1.0 - s2), l_dot_h);
-    return mix(f_exact(f0, f90, l_dot_h), film, saturate(p.weight));
+    return saturate(p.weight) * (film - f_exact(f0, f90, l_dot_h));
+}
+
+/// What a film does to the light of a whole lobe, and to that of one direction.
+struct ThinFilmLit {
+    /// thin_film_shift at the lobe's cosine.
+    shift: vec3f,
+    /// thin_film_fresnel at the direction's.
+    fresnel: vec3f,
+}
+
+/// Both of a ThinFilmLit by one loop: a film is long, and its code stands in the shader once.
+fn thin_film_lit(f0: vec3f, f90: vec3f, p: ThinFilm, lobe_cosine: f32, l_dot_h: f32) -> ThinFilmLit {
+    let cosines = vec2f(lobe_cosine, l_dot_h);
+    // The lobe's comes first and is handed on when the direction's comes.
+    var of_lobe = vec3f(0.0);
+    var shift = vec3f(0.0);
+    var bare = vec3f(0.0);
+    for (var i = 0u; i < 2u; i++) {
+        of_lobe = shift;
+        shift = thin_film_shift(f0, f90, p, cosines[i]);
+        bare = f_exact(f0, f90, cosines[i]);
+    }
+    return ThinFilmLit(of_lobe, bare + shift);
 }
 
 /// The cosine l.h at which Schlick's F is the lobe's mean, from the split-sum pair: b / (a + b) is the mean of
@@ -741,8 +770,7 @@ const DIRECTIONAL_ALBEDO_FLOOR: f32 = 0.1;
 /// single-scattering lobe, E = a + b the directional albedo of a white one. `f90` is not looked at: all methods have one
 /// signature.
 fn energy_compensation(f0: vec3f, f90: vec3f, dfg: vec2f) -> vec3f {
-    let gain = 1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0) - 1.0;
-    return 1.0 + saturate(f0) * gain;
+    return mix(vec3f(1.0), vec3f(1.0 / clamp(dfg.x + dfg.y, DIRECTIONAL_ALBEDO_FLOOR, 1.0)), saturate(f0));
 }
 
 // ---- brdf/sheen.wgsl

@@ -100,25 +100,25 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let under_coat = coat_base(coat, frame.n_dot_v, coat_dfg);
     let sheen = Sheen(parameters.sheen_color, parameters.sheen_roughness);
     let under_sheen = sheen_base(sheen, frame.n_dot_v);
-    let under_layers = under_coat * under_sheen;
     let reflection_dir = reflect(-frame.view_dir, frame.normal);
     let irradiance = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, reflection_dir, lod_report(1.0, view.environment_levels)));
-    var radiance = diffuse_environment(diffuse, irradiance) * parameters.occlusion * under_layers;
+    let behind = transmission_lookup(frame, transmission.eta, transmission.alpha);
+    let coat_mirror_dir = reflect(-frame.view_dir, frame.normal);
     var strips = vec4f(0.0);
     for (var i = 0u; i < ANISOTROPIC_STRIPS; i++) {
         let strip = anisotropic_strip(frame, tangent, alphas.x, alphas.y, f32(i));
         strips += strip.weight * vec4f(gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, strip.dir, lod_report(strip.perceptual_roughness, view.environment_levels))), 1.0);
     }
     let reflection = strips.rgb / strips.a;
-    radiance += anisotropic_environment(specular, reflection, dfg) * parameters.occlusion * under_layers;
-    let behind = transmission_lookup(frame, transmission.eta, transmission.alpha);
     let transmitted = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, behind.dir, lod_report(behind.perceptual_roughness, view.environment_levels)));
-    radiance += transmission_environment(transmission, dielectric_f0_2, transmitted, dfg) * under_layers;
-    let coat_mirror_dir = reflect(-frame.view_dir, frame.normal);
     let coat_reflection = gamma_from_linear(environment_sample(prefiltered_radiance, linear_clamp, coat_mirror_dir, lod_report(parameters.coat_roughness, view.environment_levels)));
-    radiance += coat_environment(coat, coat_reflection, coat_dfg) * parameters.occlusion * under_sheen;
-    radiance += sheen_environment(sheen, frame.n_dot_v, irradiance) * parameters.occlusion;
-    radiance += parameters.emission * under_layers;
+    var reflected = diffuse_environment(diffuse, irradiance) * parameters.occlusion;
+    reflected += anisotropic_environment(specular, reflection, dfg) * parameters.occlusion;
+    reflected += transmission_environment(transmission, dielectric_f0_2, transmitted, dfg);
+    reflected = reflected * under_coat + coat_environment(coat, coat_reflection, coat_dfg) * parameters.occlusion;
+    reflected = reflected * under_sheen + sheen_environment(sheen, frame.n_dot_v, irradiance) * parameters.occlusion;
+    var radiance = reflected;
+    radiance += parameters.emission * under_coat * under_sheen;
     radiance = finite_or_zero(radiance);
     return vec4f(radiance, 1.0);
 }
@@ -378,17 +378,11 @@ struct ThinFilm {
 /// What the film adds to the reflectance at the cosine l.h of a base of reflectances f0 and f90, in [-1, 1]:
 /// weight (f90 F_film - F(f0, f90)). For the light of a whole lobe it is added to both f0 and f90.
 fn thin_film_shift(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
-    return thin_film_fresnel(f0, f90, p, l_dot_h) - f_schlick(f0, f90, l_dot_h);
-}
-
-/// Reflectance at the cosine l.h, `p.weight` of the base under the film. It takes the place of F in a lobe lit from one
-/// direction.
-fn thin_film_fresnel(f0: vec3f, f90: vec3f, p: ThinFilm, l_dot_h: f32) -> vec3f {
     // ior_from_f0 of each channel.
     let s2 = clamp(f0 / max(f90, vec3f(F90_FLOOR)), vec3f(0.0), vec3f(F0_CEILING));
     let s = 1.0 + sqrt(s2);
     let film = f90 * f_thin_film_dielectric(p.ior, p.thickness, s * s / (1.0 - s2), l_dot_h);
-    return mix(f_schlick(f0, f90, l_dot_h), film, saturate(p.weight));
+    return saturate(p.weight) * (film - f_schlick(f0, f90, l_dot_h));
 }
 
 /// The cosine l.h at which Schlick's F is the lobe's mean, from the split-sum pair: b / (a + b) is the mean of
@@ -569,14 +563,16 @@ fn environment_sample(cube: texture_cube<f32>, cube_sampler: sampler, dir: vec3f
     return textureSampleLevel(cube, cube_sampler, dir, lod).rgb;
 }
 
-/// Split-sum scale and bias (a, b) from a square table: specular albedo = f0 a + f90 b.
+// Texels on a side of the split-sum table.
+const DFG_SIZE: f32 = 45.0;
+
+/// Split-sum scale and bias (a, b) from a table of DFG_SIZE x DFG_SIZE texels: specular albedo = f0 a + f90 b.
 /// Karis 2013, "Real Shading in Unreal Engine 4", the environment BRDF. Texel centre i of n holds the value at i / (n - 1),
 /// along x for the fourth root of n_dot_v, from 0 up, and along y for the square root of the perceptual roughness: both ends of each
 /// range are texels, and smooth surfaces at grazing angles, whose albedo changes within n_dot_v of about alpha, have most.
 fn dfg_from_table(table: texture_2d<f32>, table_sampler: sampler, n_dot_v: f32, perceptual_roughness: f32) -> vec2f {
-    let size = vec2f(textureDimensions(table));
     let place = sqrt(vec2f(sqrt(n_dot_v), saturate(perceptual_roughness)));
-    let uv = (place * (size - 1.0) + 0.5) / size;
+    let uv = place * vec2f((DFG_SIZE - 1.0) / DFG_SIZE) + vec2f(0.5 / DFG_SIZE);
     return textureSampleLevel(table, table_sampler, uv, 0.0).rg;
 }
 

@@ -18,7 +18,7 @@ const SIZE: u32 = 256;
 /// What is compared: a reference, how we draw it, and the bounds on error and bias in white and under the HDR map.
 struct Case {
     name: &'static str,
-    parameters: &'static [(&'static str, &'static [f32])],
+    parameters: &'static [(&'static str, &'static [f64])],
     methods: &'static [(&'static str, &'static str)],
     /// Largest error and bias in white; none: reported only.
     white: Option<(f64, f64)>,
@@ -177,7 +177,7 @@ fn layers_do_not_gain() {
         let mut document = halfvector_graph::file::load(&path).unwrap_or_else(|e| panic!("{e}"));
         for setting in [&["base_color=1,1,1"], *pile].concat() {
             let (name, value) = setting.split_once('=').expect("name=value");
-            let numbers: Vec<f32> = value.split(',').map(|x| x.parse().expect("a number")).collect();
+            let numbers: Vec<f64> = value.split(',').map(|x| x.parse().expect("a number")).collect();
             set_parameter(&mut document, name, &numbers).unwrap_or_else(|e| panic!("{e}"));
         }
         let mesh = MeshSource::Builtin(BuiltinMesh::Sphere);

@@ -54,6 +54,7 @@ fn nudged(document: &Document) -> Vec<(String, Document)> {
                 Value::Vec2(v) => Value::Vec2(v.map(nudge)),
                 Value::Vec3(v) => Value::Vec3(v.map(nudge)),
                 Value::Vec4(v) => Value::Vec4(v.map(nudge)),
+                Value::Integer(x) => Value::whole(x ^ 1),
                 Value::Bool(_) | Value::Image(_) => continue,
             };
             let mut changed = document.clone();

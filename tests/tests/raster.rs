@@ -13,6 +13,7 @@ use halfvector_interp::Float;
 use halfvector_maps::color::srgb_from_linear;
 use halfvector_raster::RasterOptions;
 use halfvector_render::RenderOptions;
+use halfvector_scene::light::parse_light;
 use halfvector_scene::tone_map::tone_mapped;
 use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, MeshSource, Picture, Scene, load_scene};
 
@@ -121,6 +122,33 @@ fn every_example_looks_the_same_unspecialised() {
         let most = a.into_iter().zip(b).map(|(a, b)| difference(a, b)).fold(0.0, f32::max);
         println!("{}: {:.3} codes apart", path.display(), most / CODE);
         assert!(most <= CODE, "{}: {} codes apart", path.display(), most / CODE);
+    }
+}
+
+/// What is left out because its numbers are fixed is seen nowhere: a black dielectric, which is nothing but its specular lobe,
+/// with fixed numbers and with all of them exposed, under a sun of 3.
+#[test]
+fn a_fixed_black_dielectric_looks_like_one_that_is_exposed() {
+    let names = ["base_color", "metallic", "perceptual_roughness", "ior", "specular"];
+    for roughness in [0.05, 0.15, 0.3, 0.4, 0.5, 0.8, 1.0] {
+        let black = |parameters: &str| {
+            let document = format!(
+                r#"{{"halfvector": 1, "name": "black", "nodes": {{"surface": {{"node": "surface/surface", "values":
+                {{"base_color": [0, 0, 0], "metallic": 0, "perceptual_roughness": {roughness}}}}}}}, "links": [], "parameters": [{parameters}]}}"#
+            );
+            let document = halfvector_graph::file::from_json(&document).unwrap_or_else(|e| panic!("{e}"));
+            let mesh = MeshSource::Builtin(BuiltinMesh::Sphere);
+            let mut scene = Scene::from_material(document, Path::new("."), &mesh).unwrap_or_else(|e| panic!("{e}"));
+            scene.environment = EnvironmentSource::None;
+            scene.background = Background::None;
+            scene.lights = vec![parse_light("directional:1,1,1:3").unwrap_or_else(|e| panic!("{e}"))];
+            let picture = on_cpu::<f32>(&scene, None);
+            display(&scene, &picture)
+        };
+        let exposed = names.map(|name| format!(r#"{{"name": "{name}", "socket": "surface.{name}"}}"#)).join(", ");
+        let most = black("").into_iter().zip(black(&exposed)).map(|(a, b)| difference(a, b)).fold(0.0, f32::max);
+        println!("roughness {roughness}: {:.3} codes apart", most / CODE);
+        assert!(most <= CODE, "roughness {roughness}: {} codes apart", most / CODE);
     }
 }
 

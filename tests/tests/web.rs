@@ -15,7 +15,7 @@ use crate::support::{renderer, root};
 
 const SIZE: u32 = 96;
 
-fn scene(example: &str, mesh: BuiltinMesh, parameters: &[(&str, &[f32])]) -> Scene {
+fn scene(example: &str, mesh: BuiltinMesh, parameters: &[(&str, &[f64])]) -> Scene {
     let folder = root().join("examples");
     let mut document = halfvector_graph::file::load(&folder.join(example)).unwrap_or_else(|e| panic!("{e}"));
     for (name, value) in parameters {

@@ -55,10 +55,13 @@ fn typed(document: &Document, library: &Library, socket: &SocketRef, text: &str)
             "false" => Ok(Value::Bool(false)),
             _ => Err("it takes true or false".to_owned()),
         },
+        SocketType::Value(Type::I32) if text.parse::<i32>().is_ok() => single(text),
         SocketType::Value(ty) => {
             let numbers = numbers(text)?;
             let value = match (numbers[..].len(), ty) {
-                (1, Type::I32) if numbers[0].fract() != 0.0 => return Err("it takes a whole number".to_owned()),
+                (1, Type::I32) if Value::Number(numbers[0]).components_as(ty).is_none() => {
+                    return Err(format!("it takes a whole number from {} to {}", i32::MIN, i32::MAX));
+                }
                 (1, Type::Vec2) => Value::Vec2([numbers[0]; 2]),
                 (1, Type::Vec3) => Value::Vec3([numbers[0]; 3]),
                 (1, Type::Vec4) => Value::Vec4([numbers[0]; 4]),
@@ -72,6 +75,7 @@ fn typed(document: &Document, library: &Library, socket: &SocketRef, text: &str)
             };
             Ok(value)
         }
+        SocketType::Generic if text.parse::<i32>().is_ok() => single(text),
         SocketType::Generic => vector(&numbers(text)?),
         SocketType::Texture => {
             let color_space = match (node.values.get(&socket.socket), &input.default) {
@@ -91,6 +95,11 @@ fn typed(document: &Document, library: &Library, socket: &SocketRef, text: &str)
         }
         SocketType::Surface => Err("it takes the result of a surface node, which cannot be written".to_owned()),
     }
+}
+
+/// A whole number with all its digits.
+fn single(text: &str) -> Result<Value, String> {
+    text.parse().map(Value::whole).map_err(|_| format!("`{text}` is not a whole number"))
 }
 
 fn plural(count: usize) -> String {

@@ -249,6 +249,26 @@ fn check_tells_all_problems() {
     assert!(cut.json()["problems"].as_array().is_some_and(|list| list.len() > problems.len()));
 }
 
+/// What is said of many nodes alike is said of some, and the others are counted.
+#[test]
+fn equal_warnings_are_summed_up() {
+    let folder = Folder::new();
+    let dead: String = (0..49_000).map(|i| format!(r#","dead{i}": {{"node": "math/sin"}}"#)).collect();
+    folder.write(
+        "dead.material.json",
+        &format!(
+            r#"{{"halfvector": 1, "name": "dead", "nodes": {{"surface": {{"node": "surface/surface"}}{dead}}}, "links": []}}"#
+        ),
+    );
+    let text = folder.run(&["check", "--cost", "dead.material.json"]).ends(0).stdout;
+    let lines: Vec<_> = text.lines().filter(|line| line.contains("warning: ")).collect();
+    assert_eq!(lines.len(), 22, "{text}");
+    assert!(lines[20].contains("there are 39000 more warnings"), "{text}");
+    assert!(lines[21].contains("of 9980 nodes more: the node does not reach the surface"), "{text}");
+    let all = folder.run(&["check", "dead.material.json", "--format", "json"]).ends(0).json();
+    assert_eq!(all["problems"].as_array().map(Vec::len), Some(10_001));
+}
+
 /// Constants that compute no number are told at their node, like every other problem.
 #[test]
 fn a_constant_that_is_no_number_is_told_at_its_node() {

@@ -27,27 +27,37 @@ pub(crate) struct Literal {
 
 impl Literal {
     /// Spreads one number over a vector; missing components are 0, surplus ones are left out.
-    pub(crate) fn new(ty: Type, components: &[f32]) -> Literal {
+    pub(crate) fn new(ty: Type, components: &[f64]) -> Literal {
         let mut bits = [0; 4];
         for (index, slot) in bits.iter_mut().take(ty.components()).enumerate() {
             let component =
                 if components.len() == 1 { components[0] } else { components.get(index).copied().unwrap_or(0.0) };
-            *slot = component.to_bits();
+            *slot = if ty == Type::I32 { (component as i32).cast_unsigned() } else { (component as f32).to_bits() };
         }
         Literal { ty, bits }
     }
 
+    /// The components, exact.
+    pub(crate) fn numbers(&self) -> Vec<f64> {
+        let number = |bits: u32| match self.ty {
+            Type::I32 => f64::from(bits.cast_signed()),
+            _ => f64::from(f32::from_bits(bits)),
+        };
+        self.bits[..self.ty.components()].iter().map(|bits| number(*bits)).collect()
+    }
+
+    /// The components as the shader's floats.
     pub(crate) fn components(&self) -> Vec<f32> {
-        self.bits[..self.ty.components()].iter().map(|b| f32::from_bits(*b)).collect()
+        self.numbers().iter().map(|x| *x as f32).collect()
     }
 
     /// Whether every component equals `x`.
     pub(crate) fn is_all(&self, x: f32) -> bool {
-        self.bits[..self.ty.components()].iter().all(|b| f32::from_bits(*b) == x)
+        self.numbers().iter().all(|number| *number == f64::from(x))
     }
 
     pub(crate) fn is_finite(&self) -> bool {
-        self.bits.iter().all(|b| f32::from_bits(*b).is_finite())
+        self.numbers().iter().all(|number| number.is_finite())
     }
 }
 
@@ -113,7 +123,7 @@ impl<'a> Arena<'a> {
         &self.exprs[id.index()]
     }
 
-    pub(crate) fn literal(&mut self, ty: Type, components: &[f32]) -> Id {
+    pub(crate) fn literal(&mut self, ty: Type, components: &[f64]) -> Id {
         let literal = Literal::new(ty, components);
         self.push(Entry { expr: Expr::Literal(literal), ty: Ty::Value(ty), node: None, hint: "" })
     }
@@ -129,8 +139,8 @@ impl<'a> Arena<'a> {
         match (&entry.expr, entry.ty) {
             (_, Ty::Value(from)) if from == to => id,
             (Expr::Literal(literal), _) => {
-                let components = literal.components();
-                self.literal(to, &components)
+                let numbers = literal.numbers();
+                self.literal(to, &numbers)
             }
             _ => self.own(Expr::Convert { of: id }, to, ""),
         }
@@ -177,7 +187,7 @@ pub(crate) struct Input {
     pub(crate) socket: SocketRef,
     pub(crate) ty: Type,
     /// The document's value, as many components as the type has.
-    pub(crate) value: Vec<f32>,
+    pub(crate) value: Vec<f64>,
     /// Index into the document's parameters when it is exposed.
     pub(crate) parameter: Option<usize>,
 }

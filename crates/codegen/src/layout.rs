@@ -139,8 +139,8 @@ impl UniformBlock {
     }
 
     /// The block's bytes (little-endian). `fill` appends the numbers of a source to the vector, as many as
-    /// [`UniformType::numbers`] says; bools and integers as floats.
-    pub fn pack(&self, mut fill: impl FnMut(&UniformSource, &mut Vec<f32>)) -> Result<Vec<u8>, PackError> {
+    /// [`UniformType::numbers`] says; in f64, which holds an i32 as it holds an f32.
+    pub fn pack(&self, mut fill: impl FnMut(&UniformSource, &mut Vec<f64>)) -> Result<Vec<u8>, PackError> {
         let mut bytes = vec![0_u8; self.size as usize];
         let mut numbers = Vec::new();
         for member in &self.members {
@@ -160,8 +160,11 @@ impl UniformBlock {
                 let (here, after) = rest.split_at(part);
                 rest = after;
                 for (index, number) in here.iter().enumerate() {
-                    let word =
-                        if member.ty.is_integer() { (*number as i32).to_le_bytes() } else { number.to_le_bytes() };
+                    let word = if member.ty.is_integer() {
+                        (*number as i32).to_le_bytes()
+                    } else {
+                        (*number as f32).to_le_bytes()
+                    };
                     bytes[at + 4 * index..at + 4 * index + 4].copy_from_slice(&word);
                 }
                 at += (4 * part).next_multiple_of(16);
@@ -220,12 +223,12 @@ mod tests {
     #[test]
     fn numbers_stand_at_their_offsets() {
         let block = block();
-        let fill = |source: &UniformSource, numbers: &mut Vec<f32>| match source {
+        let fill = |source: &UniformSource, numbers: &mut Vec<f64>| match source {
             UniformSource::Time => numbers.push(1.0),
             UniformSource::CameraPosition => numbers.extend([2.0, 3.0, 4.0]),
             UniformSource::Exposure => numbers.push(5.0),
-            UniformSource::NormalFromObject => numbers.extend((0..9).map(|i| 10.0 + i as f32)),
-            UniformSource::Lights(_) => numbers.extend((0..22).map(|i| 20.0 + i as f32)),
+            UniformSource::NormalFromObject => numbers.extend((0..9).map(|i| 10.0 + f64::from(i))),
+            UniformSource::Lights(_) => numbers.extend((0..22).map(|i| 20.0 + f64::from(i))),
             _ => numbers.push(1.0),
         };
         let bytes = block.pack(fill).unwrap();

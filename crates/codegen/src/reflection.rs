@@ -181,8 +181,8 @@ pub struct ShaderParameter {
     pub label: String,
     /// Its type.
     pub ty: Type,
-    /// The document's value.
-    pub default: Vec<f32>,
+    /// The document's value, exact.
+    pub default: Vec<f64>,
     /// Soft range of each component.
     pub range: Option<[f32; 2]>,
 }

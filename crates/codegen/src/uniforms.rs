@@ -43,19 +43,23 @@ pub struct ObjectValues {
 
 impl FrameValues {
     /// Appends the numbers of a source that belongs to the frame; others append nothing.
-    pub fn fill(&self, source: &UniformSource, numbers: &mut Vec<f32>) {
+    pub fn fill(&self, source: &UniformSource, numbers: &mut Vec<f64>) {
         match source {
-            UniformSource::ClipFromWorld => numbers.extend(self.clip_from_world),
-            UniformSource::ViewFromWorld => numbers.extend(self.view_from_world),
-            UniformSource::CameraPosition => numbers.extend(self.camera_position),
-            UniformSource::Time => numbers.push(self.time),
-            UniformSource::Exposure => numbers.push(self.exposure),
-            UniformSource::EnvironmentRotation => numbers.extend(self.environment_rotation),
-            UniformSource::EnvironmentLevels => numbers.push(self.environment_levels as f32),
-            UniformSource::IrradianceSh => numbers.extend(self.irradiance_sh.as_flattened()),
-            UniformSource::Lights(LightKind::Directional) => numbers.extend(&self.lights[0]),
-            UniformSource::Lights(LightKind::Point) => numbers.extend(&self.lights[1]),
-            UniformSource::Lights(LightKind::Spot) => numbers.extend(&self.lights[2]),
+            UniformSource::ClipFromWorld => numbers.extend(self.clip_from_world.map(f64::from)),
+            UniformSource::ViewFromWorld => numbers.extend(self.view_from_world.map(f64::from)),
+            UniformSource::CameraPosition => numbers.extend(self.camera_position.map(f64::from)),
+            UniformSource::Time => numbers.push(f64::from(self.time)),
+            UniformSource::Exposure => numbers.push(f64::from(self.exposure)),
+            UniformSource::EnvironmentRotation => numbers.extend(self.environment_rotation.map(f64::from)),
+            UniformSource::EnvironmentLevels => numbers.push(f64::from(self.environment_levels)),
+            UniformSource::IrradianceSh => {
+                numbers.extend(self.irradiance_sh.as_flattened().iter().copied().map(f64::from))
+            }
+            UniformSource::Lights(LightKind::Directional) => {
+                numbers.extend(self.lights[0].iter().copied().map(f64::from))
+            }
+            UniformSource::Lights(LightKind::Point) => numbers.extend(self.lights[1].iter().copied().map(f64::from)),
+            UniformSource::Lights(LightKind::Spot) => numbers.extend(self.lights[2].iter().copied().map(f64::from)),
             UniformSource::Input(_)
             | UniformSource::WorldFromObject
             | UniformSource::ObjectFromWorld
@@ -66,11 +70,11 @@ impl FrameValues {
 
 impl ObjectValues {
     /// Appends the numbers of a source that belongs to an object; others append nothing.
-    pub fn fill(&self, source: &UniformSource, numbers: &mut Vec<f32>) {
+    pub fn fill(&self, source: &UniformSource, numbers: &mut Vec<f64>) {
         match source {
-            UniformSource::WorldFromObject => numbers.extend(self.world_from_object),
-            UniformSource::ObjectFromWorld => numbers.extend(self.object_from_world),
-            UniformSource::NormalFromObject => numbers.extend(self.normal_from_object),
+            UniformSource::WorldFromObject => numbers.extend(self.world_from_object.map(f64::from)),
+            UniformSource::ObjectFromWorld => numbers.extend(self.object_from_world.map(f64::from)),
+            UniformSource::NormalFromObject => numbers.extend(self.normal_from_object.map(f64::from)),
             _ => {}
         }
     }
@@ -83,7 +87,7 @@ pub fn fill_input(
     library: &Library,
     block: &UniformBlock,
     source: &UniformSource,
-    numbers: &mut Vec<f32>,
+    numbers: &mut Vec<f64>,
 ) {
     let UniformSource::Input(socket) = source else { return };
     let ty = block.members.iter().find(|member| member.source == *source).map(|member| member.ty);

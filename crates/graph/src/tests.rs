@@ -125,6 +125,7 @@ fn any_value() -> impl Strategy<Value = Value> {
     prop_oneof![
         any::<bool>().prop_map(Value::Bool),
         any_number().prop_map(Value::Number),
+        any::<i32>().prop_map(Value::whole),
         [any_number(), any_number()].prop_map(Value::Vec2),
         [any_number(), any_number(), any_number()].prop_map(Value::Vec3),
         [any_number(), any_number(), any_number(), any_number()].prop_map(Value::Vec4),

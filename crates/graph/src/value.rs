@@ -139,6 +139,8 @@ pub enum Value {
     Bool(bool),
     /// For `f32`, and for `i32` when whole.
     Number(f32),
+    /// For `i32`: a whole number that no `f32` holds, such as 16777217; see [`Value::whole`].
+    Integer(i32),
     /// For `vec2f`.
     Vec2([f32; 2]),
     /// For `vec3f`.
@@ -150,7 +152,14 @@ pub enum Value {
 }
 
 impl Value {
-    /// The components of a number or vector; a bool is 0 or 1; none for an image.
+    /// A whole number: as [`Value::Number`] where an `f32` holds it.
+    pub fn whole(x: i32) -> Value {
+        let near = x as f32;
+        if near as i64 == i64::from(x) { Value::Number(near) } else { Value::Integer(x) }
+    }
+
+    /// The components of a number or vector; a bool is 0 or 1; none for an image, or for an integer that no `f32` holds:
+    /// [`Value::numbers`] has it.
     pub fn components(&self) -> Option<&[f32]> {
         Some(match self {
             Value::Bool(false) => &[0.0],
@@ -159,13 +168,22 @@ impl Value {
             Value::Vec2(v) => v,
             Value::Vec3(v) => v,
             Value::Vec4(v) => v,
-            Value::Image(_) => return None,
+            Value::Integer(_) | Value::Image(_) => return None,
         })
+    }
+
+    /// The components of any number, exact; none for an image.
+    pub fn numbers(&self) -> Option<Vec<f64>> {
+        match self {
+            Value::Integer(x) => Some(vec![f64::from(*x)]),
+            other => Some(other.components()?.iter().map(|x| f64::from(*x)).collect()),
+        }
     }
 }
 
 impl Value {
-    /// The components that this value has on a socket of type `ty`: its own, or one number spread over a vector. None when the
+    /// The components that this value has on a socket of type `ty`: its own, or one number spread over a vector; of an integer that
+    /// no `f32` holds, the nearest. None when the
     /// value does not fit: a vector of another size, a bool as a number, a fraction as an `i32`, an image.
     pub fn components_as(&self, ty: Type) -> Option<Vec<f32>> {
         match (self, ty) {
@@ -173,7 +191,11 @@ impl Value {
             (Value::Number(x), Type::I32) => {
                 (x.fract() == 0.0 && (-2_147_483_648.0..2_147_483_648.0).contains(x)).then(|| vec![*x])
             }
+            (Value::Integer(x), Type::I32) => Some(vec![*x as f32]),
             (Value::Number(x), Type::F32 | Type::Vec2 | Type::Vec3 | Type::Vec4) => Some(vec![*x; ty.components()]),
+            (Value::Integer(x), Type::F32 | Type::Vec2 | Type::Vec3 | Type::Vec4) => {
+                Some(vec![*x as f32; ty.components()])
+            }
             (Value::Vec2(_) | Value::Vec3(_) | Value::Vec4(_), _) => {
                 (self.ty() == Some(ty)).then(|| self.components().map(<[f32]>::to_vec)).flatten()
             }
@@ -185,7 +207,7 @@ impl Value {
     pub fn ty(&self) -> Option<Type> {
         match self {
             Value::Bool(_) => Some(Type::Bool),
-            Value::Number(_) => Some(Type::F32),
+            Value::Number(_) | Value::Integer(_) => Some(Type::F32),
             Value::Vec2(_) => Some(Type::Vec2),
             Value::Vec3(_) => Some(Type::Vec3),
             Value::Vec4(_) => Some(Type::Vec4),

@@ -277,7 +277,7 @@ impl Material {
             let at = (binding.group, binding.binding);
             match &binding.resource {
                 Resource::Uniform(block) => {
-                    let fill = |source: &UniformSource, numbers: &mut Vec<f32>| {
+                    let fill = |source: &UniformSource, numbers: &mut Vec<f64>| {
                         let member = block.members.iter().find(|member| member.source == *source);
                         match (source, member.map(|member| member.ty)) {
                             (UniformSource::Input(socket), Some(UniformType::Value(ty))) => {

@@ -266,7 +266,7 @@ fn read_material(entry: &MaterialEntry, directory: &Path, place: &str) -> Result
     let mut document = halfvector_graph::file::load(&path)?;
     for (name, numbers) in set.into_iter().flatten() {
         let numbers = match numbers {
-            Numbers::Switch(on) => vec![f32::from(u8::from(*on))],
+            Numbers::Switch(on) => vec![f64::from(u8::from(*on))],
             Numbers::One(x) => vec![*x],
             Numbers::Many(list) => list.clone(),
         };

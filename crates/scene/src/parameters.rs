@@ -50,7 +50,7 @@ pub enum ParameterError {
 
 /// Sets a parameter by name. As many numbers as the value has components; one number is spread over a vector; a switch
 /// takes 0 or 1.
-pub fn set_parameter(document: &mut Document, name: &str, numbers: &[f32]) -> Result<(), ParameterError> {
+pub fn set_parameter(document: &mut Document, name: &str, numbers: &[f64]) -> Result<(), ParameterError> {
     let Some(parameter) = document.parameters.iter().find(|p| p.name == name) else {
         let names: Vec<_> = document.parameters.iter().map(|p| p.name.as_str()).collect();
         let known = match names.is_empty() {
@@ -59,7 +59,7 @@ pub fn set_parameter(document: &mut Document, name: &str, numbers: &[f32]) -> Re
         };
         return Err(ParameterError::Unknown { material: document.name.clone(), name: name.into(), known });
     };
-    if numbers.iter().any(|x| !x.is_finite()) {
+    if numbers.iter().any(|x| !(*x as f32).is_finite()) {
         return Err(ParameterError::NotFinite { name: name.into() });
     }
     let socket = parameter.socket.clone();
@@ -70,7 +70,7 @@ pub fn set_parameter(document: &mut Document, name: &str, numbers: &[f32]) -> Re
         Some(Value::Image(_)) => return Err(ParameterError::Image { name: name.into() }),
         Some(Value::Bool(_)) => (numbers.len() == 1).then(|| Value::Bool(numbers[0] != 0.0)).ok_or(1),
         Some(value) => {
-            let components = value.components().map_or(1, <[f32]>::len);
+            let components = value.components().map_or(1, <[_]>::len);
             numbers_as(components, numbers).ok_or(components)
         }
         None => numbers_as(numbers.len(), numbers).ok_or(1),
@@ -87,16 +87,18 @@ pub fn set_parameter(document: &mut Document, name: &str, numbers: &[f32]) -> Re
     Ok(())
 }
 
-fn numbers_as(components: usize, numbers: &[f32]) -> Option<Value> {
+fn numbers_as(components: usize, numbers: &[f64]) -> Option<Value> {
     if numbers.len() != components && numbers.len() != 1 {
         return None;
     }
-    let at = |i: usize| numbers[i % numbers.len()];
-    Some(match components {
-        1 => Value::Number(at(0)),
-        2 => Value::Vec2([at(0), at(1)]),
-        3 => Value::Vec3([at(0), at(1), at(2)]),
-        4 => Value::Vec4([at(0), at(1), at(2), at(3)]),
+    let at = |i: usize| numbers[i % numbers.len()] as f32;
+    let whole = numbers.first().and_then(|x| i32::try_from(*x as i64).ok().filter(|i| f64::from(*i) == *x));
+    Some(match (components, whole.map(Value::whole)) {
+        (1, Some(integer @ Value::Integer(_))) => integer,
+        (1, _) => Value::Number(at(0)),
+        (2, _) => Value::Vec2([at(0), at(1)]),
+        (3, _) => Value::Vec3([at(0), at(1), at(2)]),
+        (4, _) => Value::Vec4([at(0), at(1), at(2), at(3)]),
         _ => return None,
     })
 }
@@ -137,7 +139,8 @@ mod tests {
             ("base_color", &[1.0, 2.0], "3 numbers, or 1"),
             ("base_color", &[], "and 0 were given"),
             ("ior", &[], "and 0 were given"),
-            ("metallic", &[f32::NAN], "not finite"),
+            ("metallic", &[f64::NAN], "not finite"),
+            ("metallic", &[1e39], "not finite"),
             ("lost", &[1.0], "node `gone`"),
         ] {
             let error = set_parameter(&mut document, name, numbers).unwrap_err().to_string();

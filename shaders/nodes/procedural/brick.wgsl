@@ -21,13 +21,18 @@ struct BrickOutputs {
 /// - seed: another one, other values [0; 0..100]
 /// @vertex node_procedural_brick_vertex
 fn node_procedural_brick(uv: vec2f, count: vec2f, shift: f32, mortar: f32, softness: f32, seed: i32) -> BrickOutputs {
-    let p = uv * max(count, vec2f(1e-3));
-    return bricks(p, fwidth(p), max(count, vec2f(1e-3)), shift, mortar, softness, seed);
+    let p = held2(uv * brick_count(count));
+    return bricks(p, fwidth(p), brick_count(count), shift, mortar, softness, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_brick_vertex(uv: vec2f, count: vec2f, shift: f32, mortar: f32, softness: f32, seed: i32) -> BrickOutputs {
-    return bricks(uv * max(count, vec2f(1e-3)), vec2f(0.0), max(count, vec2f(1e-3)), shift, mortar, softness, seed);
+    return bricks(held2(uv * brick_count(count)), vec2f(0.0), brick_count(count), shift, mortar, softness, seed);
+}
+
+/// The counts, of which one is divided by the other.
+fn brick_count(count: vec2f) -> vec2f {
+    return clamp(count, vec2f(1e-3), vec2f(PATTERN_END));
 }
 
 /// Bricks over a window. A soft edge is a hard one in its middle, averaged over its width: its window and the pixel's are one of the squares' sum.
@@ -35,9 +40,9 @@ fn bricks(p: vec2f, window: vec2f, count: vec2f, shift: f32, mortar: f32, softne
     let row = floor(p.y);
     let odd = row - 2.0 * floor(0.5 * row);
     let q = vec2f(p.x + odd * shift, p.y);
-    // In bricks and rows.
-    let joint = max(mortar, 0.0) * vec2f(count.x / count.y, 1.0);
-    let soft = max(softness, 0.0) * vec2f(count.x / count.y, 1.0);
+    // In bricks and rows. From a whole row on nothing of a brick is left.
+    let joint = clamp(mortar, 0.0, 1.0) * vec2f(count.x / count.y, 1.0);
+    let soft = clamp(softness, 0.0, 1.0) * vec2f(count.x / count.y, 1.0);
     let w = sqrt(window * window + soft * soft);
     let edge = joint + soft;
     let across = pulse_wave(q.x - 0.5 * edge.x, w.x, 1.0 - edge.x);

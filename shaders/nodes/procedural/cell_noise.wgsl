@@ -13,7 +13,7 @@
 /// - return: 0 to 1, mean 0.5
 /// @vertex node_procedural_cell_noise_2d_vertex
 fn node_procedural_cell_noise_2d(uv: vec2f, scale: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     let window = max(fwidth(p), vec2f(1e-6));
     let w = min(window, vec2f(1.0));
     let first = floor(p - 0.5 * w);
@@ -24,7 +24,7 @@ fn node_procedural_cell_noise_2d(uv: vec2f, scale: f32, seed: i32) -> f32 {
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_cell_noise_2d_vertex(uv: vec2f, scale: f32, seed: i32) -> f32 {
-    return lattice_value(vec3i(vec2i(floor(uv * scale)), 0), seed);
+    return lattice_value(vec3i(vec2i(floor(held2(uv * scale))), 0), seed);
 }
 
 /// Cell Noise 3D
@@ -38,7 +38,7 @@ fn node_procedural_cell_noise_2d_vertex(uv: vec2f, scale: f32, seed: i32) -> f32
 /// - return: 0 to 1, mean 0.5
 /// @vertex node_procedural_cell_noise_3d_vertex
 fn node_procedural_cell_noise_3d(position: vec3f, scale: f32, seed: i32) -> f32 {
-    let p = position * scale;
+    let p = held3(position * scale);
     let window = max(fwidth(p), vec3f(1e-6));
     let w = min(window, vec3f(1.0));
     let first = floor(p - 0.5 * w);
@@ -49,5 +49,5 @@ fn node_procedural_cell_noise_3d(position: vec3f, scale: f32, seed: i32) -> f32 
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_cell_noise_3d_vertex(position: vec3f, scale: f32, seed: i32) -> f32 {
-    return lattice_value(vec3i(floor(position * scale)), seed);
+    return lattice_value(vec3i(floor(held3(position * scale))), seed);
 }

@@ -7,14 +7,14 @@
 /// - return: 0 to 1
 /// @vertex node_procedural_checker_vertex
 fn node_procedural_checker(uv: vec2f, count: vec2f) -> f32 {
-    let p = uv * count;
+    let p = held2(uv * count);
     let w = fwidth(p);
     return odd_share(odd_share(0.0, p.x, w.x), p.y, w.y);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_checker_vertex(uv: vec2f, count: vec2f) -> f32 {
-    let p = uv * count;
+    let p = held2(uv * count);
     return odd_share(odd_share(0.0, p.x, 0.0), p.y, 0.0);
 }
 
@@ -33,13 +33,13 @@ fn odd_share(share: f32, x: f32, width: f32) -> f32 {
 /// - return: 0 to 1
 /// @vertex node_procedural_checker_3d_vertex
 fn node_procedural_checker_3d(position: vec3f, count: vec3f) -> f32 {
-    let p = position * count;
+    let p = held3(position * count);
     let w = fwidth(p);
     return odd_share(odd_share(odd_share(0.0, p.x, w.x), p.y, w.y), p.z, w.z);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_checker_3d_vertex(position: vec3f, count: vec3f) -> f32 {
-    let p = position * count;
+    let p = held3(position * count);
     return odd_share(odd_share(odd_share(0.0, p.x, 0.0), p.y, 0.0), p.z, 0.0);
 }

@@ -18,13 +18,13 @@ const MAX_OCTAVES: i32 = 8;
 /// - return: -1 to 1, mean 0
 /// @vertex node_procedural_fbm_2d_vertex
 fn node_procedural_fbm_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return fbm2(p, squared_footprint2(p), octaves, lacunarity, gain, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_fbm_2d_vertex(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    return fbm2(uv * scale, 0.0, octaves, lacunarity, gain, seed);
+    return fbm2(held2(uv * scale), 0.0, octaves, lacunarity, gain, seed);
 }
 
 /// Fractal Noise over a window of `squared_width`.
@@ -59,13 +59,13 @@ fn fbm2(start: vec2f, squared_width: f32, octaves: i32, lacunarity: f32, gain: f
 /// - return: -1 to 1, mean 0
 /// @vertex node_procedural_fbm_3d_vertex
 fn node_procedural_fbm_3d(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    let p = position * scale;
+    let p = held3(position * scale);
     return fbm3(p, squared_footprint(p), octaves, lacunarity, gain, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_fbm_3d_vertex(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    return fbm3(position * scale, 0.0, octaves, lacunarity, gain, seed);
+    return fbm3(held3(position * scale), 0.0, octaves, lacunarity, gain, seed);
 }
 
 /// Fractal Noise over a window of `squared_width`.

@@ -5,6 +5,30 @@
 // A window narrower than this part of a period counts as none: differences of integrals have no digits left there.
 const WINDOW_FLOOR: f32 = 1e-3;
 
+// A pattern is held beyond this many periods: from 2^23 on an f32 has no fraction left, and what is near the end of f32 would come to
+// infinity, of which there is no fraction.
+const PATTERN_END: f32 = 1e9;
+
+/// A point of a pattern along a line.
+fn held1(x: f32) -> f32 {
+    return clamp(x, -PATTERN_END, PATTERN_END);
+}
+
+/// A point of a pattern in the plane.
+fn held2(p: vec2f) -> vec2f {
+    return clamp(p, vec2f(-PATTERN_END), vec2f(PATTERN_END));
+}
+
+/// A point of a pattern in space.
+fn held3(p: vec3f) -> vec3f {
+    return clamp(p, vec3f(-PATTERN_END), vec3f(PATTERN_END));
+}
+
+/// A point of a pattern in space and time.
+fn held4(p: vec4f) -> vec4f {
+    return clamp(p, vec4f(-PATTERN_END), vec4f(PATTERN_END));
+}
+
 /// The square of a pixel's width on a pattern: the mean squared length of its two sides there, the same for turned pixels.
 /// Limited to 1e6, where every pattern is its mean.
 fn squared_footprint(p: vec3f) -> f32 {

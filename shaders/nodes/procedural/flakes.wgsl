@@ -19,14 +19,14 @@ struct FlakesOutputs {
 /// - seed: another one, other flakes [0; 0..100]
 /// @vertex node_procedural_flakes_vertex
 fn node_procedural_flakes(position: vec3f, normal: vec3f, scale: f32, tilt: f32, seed: i32) -> FlakesOutputs {
-    let left = left_of_cells(squared_footprint(position * scale));
+    let left = left_of_cells(squared_footprint(held3(position * scale)));
     let flake = node_procedural_flakes_vertex(position, normal, scale, tilt * left, seed);
     return FlakesOutputs(flake.normal, mix(0.5, flake.id, left));
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_flakes_vertex(position: vec3f, normal: vec3f, scale: f32, tilt: f32, seed: i32) -> FlakesOutputs {
-    let p = position * scale;
+    let p = held3(position * scale);
     let cell = vec3i(floor(p));
     let f = fract(p);
     var least = 8.0;

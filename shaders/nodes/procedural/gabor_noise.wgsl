@@ -36,7 +36,7 @@ struct GaborOutputs {
 /// - seed: another one, another pattern [0; 0..100]
 /// @vertex node_procedural_gabor_noise_vertex
 fn node_procedural_gabor_noise(uv: vec2f, scale: f32, frequency: f32, anisotropy: f32, orientation: f32, seed: i32) -> GaborOutputs {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     // Limited to where each wave is its mean.
     let ddx = clamp(dpdx(p), vec2f(-1e3), vec2f(1e3));
     let ddy = clamp(dpdy(p), vec2f(-1e3), vec2f(1e3));
@@ -45,7 +45,7 @@ fn node_procedural_gabor_noise(uv: vec2f, scale: f32, frequency: f32, anisotropy
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_gabor_noise_vertex(uv: vec2f, scale: f32, frequency: f32, anisotropy: f32, orientation: f32, seed: i32) -> GaborOutputs {
-    return gabor_noise(uv * scale, vec2f(0.0), vec2f(0.0), clamp(frequency, 0.0, 64.0), anisotropy, orientation, seed);
+    return gabor_noise(held2(uv * scale), vec2f(0.0), vec2f(0.0), clamp(frequency, 0.0, 64.0), anisotropy, orientation, seed);
 }
 
 /// Gabor Noise over a window with these sides.

@@ -64,13 +64,13 @@ fn gradient_noise3(p: vec3f, seed: i32) -> f32 {
 /// - return: -1 to 1, mean 0
 /// @vertex node_procedural_gradient_noise_2d_vertex
 fn node_procedural_gradient_noise_2d(uv: vec2f, scale: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return gradient_noise2(p, seed) * left_of_noise(1.0, squared_footprint2(p));
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_gradient_noise_2d_vertex(uv: vec2f, scale: f32, seed: i32) -> f32 {
-    return gradient_noise2(uv * scale, seed);
+    return gradient_noise2(held2(uv * scale), seed);
 }
 
 /// Gradient Noise 3D
@@ -84,11 +84,11 @@ fn node_procedural_gradient_noise_2d_vertex(uv: vec2f, scale: f32, seed: i32) ->
 /// - return: -1 to 1, mean 0
 /// @vertex node_procedural_gradient_noise_3d_vertex
 fn node_procedural_gradient_noise_3d(position: vec3f, scale: f32, seed: i32) -> f32 {
-    let p = position * scale;
+    let p = held3(position * scale);
     return gradient_noise3(p, seed) * left_of_noise(1.0, squared_footprint(p));
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_gradient_noise_3d_vertex(position: vec3f, scale: f32, seed: i32) -> f32 {
-    return gradient_noise3(position * scale, seed);
+    return gradient_noise3(held3(position * scale), seed);
 }

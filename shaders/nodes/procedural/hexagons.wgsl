@@ -20,13 +20,13 @@ struct HexagonsOutputs {
 /// - seed: another one, other values [0; 0..100]
 /// @vertex node_procedural_hexagons_vertex
 fn node_procedural_hexagons(uv: vec2f, count: f32, joint: f32, seed: i32) -> HexagonsOutputs {
-    let p = uv * count;
+    let p = held2(uv * count);
     return hexagons(p, squared_footprint2(p), joint, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_hexagons_vertex(uv: vec2f, count: f32, joint: f32, seed: i32) -> HexagonsOutputs {
-    return hexagons(uv * count, 0.0, joint, seed);
+    return hexagons(held2(uv * count), 0.0, joint, seed);
 }
 
 /// Hexagons one unit wide over a window.

@@ -11,14 +11,14 @@
 /// - return: 0 to 1
 /// @vertex node_procedural_marble_vertex
 fn node_procedural_marble(position: vec3f, scale: f32, distortion: f32, octaves: i32, seed: i32) -> f32 {
-    let p = position * scale;
-    let phase = p.x + distortion * turbulence3(p, squared_footprint(p), octaves, 2.0, 0.5, seed);
+    let p = held3(position * scale);
+    let phase = held1(p.x + distortion * turbulence3(p, squared_footprint(p), octaves, 2.0, 0.5, seed));
     return 0.5 + 0.5 * sine_wave(phase, fwidth(phase));
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_marble_vertex(position: vec3f, scale: f32, distortion: f32, octaves: i32, seed: i32) -> f32 {
-    let p = position * scale;
-    let phase = p.x + distortion * turbulence3(p, 0.0, octaves, 2.0, 0.5, seed);
+    let p = held3(position * scale);
+    let phase = held1(p.x + distortion * turbulence3(p, 0.0, octaves, 2.0, 0.5, seed));
     return 0.5 + 0.5 * sine_wave(phase, 0.0);
 }

@@ -54,13 +54,13 @@ fn gradient_noise4(p: vec4f, seed: i32) -> f32 {
 /// - return: -1 to 1, mean 0
 /// @vertex node_procedural_gradient_noise_4d_vertex
 fn node_procedural_gradient_noise_4d(position: vec3f, scale: f32, evolution: f32, seed: i32) -> f32 {
-    let p = position * scale;
-    return gradient_noise4(vec4f(p, evolution), seed) * left_of_noise(1.0, squared_footprint(p));
+    let p = held3(position * scale);
+    return gradient_noise4(held4(vec4f(p, evolution)), seed) * left_of_noise(1.0, squared_footprint(p));
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_gradient_noise_4d_vertex(position: vec3f, scale: f32, evolution: f32, seed: i32) -> f32 {
-    return gradient_noise4(vec4f(position * scale, evolution), seed);
+    return gradient_noise4(held4(vec4f(position * scale, evolution)), seed);
 }
 
 /// Fractal Noise 4D
@@ -79,13 +79,13 @@ fn node_procedural_gradient_noise_4d_vertex(position: vec3f, scale: f32, evoluti
 /// - return: -1 to 1, mean 0
 /// @vertex node_procedural_fbm_4d_vertex
 fn node_procedural_fbm_4d(position: vec3f, scale: f32, evolution: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    let p = position * scale;
-    return fbm4(vec4f(p, evolution), squared_footprint(p), octaves, lacunarity, gain, seed);
+    let p = held3(position * scale);
+    return fbm4(held4(vec4f(p, evolution)), squared_footprint(p), octaves, lacunarity, gain, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_fbm_4d_vertex(position: vec3f, scale: f32, evolution: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    return fbm4(vec4f(position * scale, evolution), 0.0, octaves, lacunarity, gain, seed);
+    return fbm4(held4(vec4f(position * scale, evolution)), 0.0, octaves, lacunarity, gain, seed);
 }
 
 /// Fractal Noise over a window of `squared_width`.

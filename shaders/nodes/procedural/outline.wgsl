@@ -25,13 +25,13 @@ fn outline_share(signed_distance: f32, softness: f32, p: vec2f, half_size: vec2f
 /// - softness: width of the edge [0; 0..0.5]
 /// @vertex node_procedural_rounded_box_vertex
 fn node_procedural_rounded_box(uv: vec2f, center: vec2f, size: vec2f, radius: f32, softness: f32) -> OutlineOutputs {
-    let d = rounded_box_distance(uv - center, size, radius);
-    return OutlineOutputs(outline_share(d, softness, uv - center, 0.5 * size, sqrt(squared_footprint2(uv))), d);
+    let d = rounded_box_distance(held2(uv - center), size, radius);
+    return OutlineOutputs(outline_share(d, softness, held2(uv - center), 0.5 * size, sqrt(squared_footprint2(uv))), d);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_rounded_box_vertex(uv: vec2f, center: vec2f, size: vec2f, radius: f32, softness: f32) -> OutlineOutputs {
-    let d = rounded_box_distance(uv - center, size, radius);
+    let d = rounded_box_distance(held2(uv - center), size, radius);
     return OutlineOutputs(inside_share(d, softness, 0.0), d);
 }
 
@@ -56,16 +56,16 @@ fn rounded_box_distance(p: vec2f, size: vec2f, radius: f32) -> f32 {
 /// - softness: width of the edge [0; 0..0.5]
 /// @vertex node_procedural_polygon_vertex
 fn node_procedural_polygon(uv: vec2f, center: vec2f, sides: i32, radius: f32, rotation: f32, softness: f32) -> OutlineOutputs {
-    let d = polygon_distance(uv - center, sides, rotation) - radius;
+    let d = polygon_distance(held2(uv - center), sides, rotation) - radius;
     // Half the side of the square of the same area.
     let n = f32(clamp(sides, 3, 64));
     let half_side = vec2f(0.5 * radius * sqrt(n * tan(PI / n)));
-    return OutlineOutputs(outline_share(d, softness, uv - center, half_side, sqrt(squared_footprint2(uv))), d);
+    return OutlineOutputs(outline_share(d, softness, held2(uv - center), half_side, sqrt(squared_footprint2(uv))), d);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_polygon_vertex(uv: vec2f, center: vec2f, sides: i32, radius: f32, rotation: f32, softness: f32) -> OutlineOutputs {
-    let d = polygon_distance(uv - center, sides, rotation) - radius;
+    let d = polygon_distance(held2(uv - center), sides, rotation) - radius;
     return OutlineOutputs(inside_share(d, softness, 0.0), d);
 }
 
@@ -90,19 +90,19 @@ fn polygon_distance(p: vec2f, sides: i32, rotation: f32) -> f32 {
 /// - softness: width of the edge [0; 0..0.5]
 /// @vertex node_procedural_circle_vertex
 fn node_procedural_circle(uv: vec2f, center: vec2f, radius: f32, width: f32, softness: f32) -> OutlineOutputs {
-    let d = circle_distance(uv - center, radius, width);
+    let d = circle_distance(held2(uv - center), radius, width);
     let window = sqrt(squared_footprint2(uv));
     // Half the sides of the squares of the same areas.
     let outer = vec2f(0.88622693 * max(radius, 0.0));
     let inner = vec2f(0.88622693 * max(radius - max(width, 0.0), 0.0));
-    let whole = outline_share(length(uv - center) - radius, softness, uv - center, outer, window);
-    let hole = outline_share(length(uv - center) - radius + max(width, 0.0), softness, uv - center, inner, window);
+    let whole = outline_share(length(held2(uv - center)) - radius, softness, held2(uv - center), outer, window);
+    let hole = outline_share(length(held2(uv - center)) - radius + max(width, 0.0), softness, held2(uv - center), inner, window);
     return OutlineOutputs(max(whole - select(0.0, hole, inner.x > 0.0), 0.0), d);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_circle_vertex(uv: vec2f, center: vec2f, radius: f32, width: f32, softness: f32) -> OutlineOutputs {
-    let d = circle_distance(uv - center, radius, width);
+    let d = circle_distance(held2(uv - center), radius, width);
     return OutlineOutputs(inside_share(d, softness, 0.0), d);
 }
 
@@ -126,11 +126,11 @@ fn circle_distance(p: vec2f, radius: f32, width: f32) -> f32 {
 fn node_procedural_line(uv: vec2f, a: vec2f, b: vec2f, width: f32, softness: f32) -> OutlineOutputs {
     let d = line_distance(uv, a, b, width);
     let half_width = 0.5 * max(width, 0.0);
-    let along = normalize_or(vec3f(b - a, 0.0), vec3f(1.0, 0.0, 0.0)).xy;
-    let from_middle = uv - 0.5 * (a + b);
+    let along = normalize_or(vec3f(held2(b - a), 0.0), vec3f(1.0, 0.0, 0.0)).xy;
+    let from_middle = held2(uv - 0.5 * (a + b));
     let p = vec2f(dot(from_middle, along), along.x * from_middle.y - along.y * from_middle.x);
     // Half the sides of the box of the same area: the round ends are as a box's of pi/4 their length.
-    let extent = vec2f(0.5 * distance(a, b) + 0.78539816 * half_width, half_width);
+    let extent = vec2f(0.5 * length(held2(b - a)) + 0.78539816 * half_width, half_width);
     return OutlineOutputs(outline_share(d, softness, p, extent, sqrt(squared_footprint2(uv))), d);
 }
 
@@ -142,9 +142,10 @@ fn node_procedural_line_vertex(uv: vec2f, a: vec2f, b: vec2f, width: f32, softne
 
 /// Signed distance to a line with round ends.
 fn line_distance(p: vec2f, a: vec2f, b: vec2f, width: f32) -> f32 {
-    let way = b - a;
-    let along = clamp(dot(p - a, way) / max(dot(way, way), DIVISOR_FLOOR), 0.0, 1.0);
-    return distance(p, a + along * way) - 0.5 * max(width, 0.0);
+    let way = held2(b - a);
+    let from_start = held2(p - a);
+    let along = clamp(dot(from_start, way) / max(dot(way, way), DIVISOR_FLOOR), 0.0, 1.0);
+    return distance(from_start, along * way) - 0.5 * max(width, 0.0);
 }
 
 /// Cloverleaf

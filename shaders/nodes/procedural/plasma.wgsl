@@ -9,7 +9,7 @@
 /// - return: colour, each channel 0 to 1
 /// @vertex node_procedural_plasma_vertex
 fn node_procedural_plasma(position: vec3f, scale: f32, distortion: f32) -> vec3f {
-    let q = plasma_phase(position * scale, distortion);
+    let q = plasma_phase(held3(position * scale), held1(distortion));
     let x = fwidth(q.x);
     let y = fwidth(q.y);
     let z = fwidth(q.z);
@@ -18,7 +18,7 @@ fn node_procedural_plasma(position: vec3f, scale: f32, distortion: f32) -> vec3f
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_plasma_vertex(position: vec3f, scale: f32, distortion: f32) -> vec3f {
-    let q = plasma_phase(position * scale, distortion);
+    let q = plasma_phase(held3(position * scale), held1(distortion));
     return 0.5 + 0.5 * vec3f(sine_wave(q.x, 0.0), sine_wave(q.y, 0.0), sine_wave(q.z, 0.0));
 }
 

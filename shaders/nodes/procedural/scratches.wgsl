@@ -12,13 +12,13 @@
 /// - return: 0 to 1
 /// @vertex node_procedural_scratches_vertex
 fn node_procedural_scratches(uv: vec2f, scale: f32, density: f32, width: f32, spread: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return scratches(p, squared_footprint2(p), clamp(density, 0.0, 1.0), clamp(width, 0.0, 0.2), spread, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_scratches_vertex(uv: vec2f, scale: f32, density: f32, width: f32, spread: f32, seed: i32) -> f32 {
-    return scratches(uv * scale, 0.0, clamp(density, 0.0, 1.0), clamp(width, 0.0, 0.2), spread, seed);
+    return scratches(held2(uv * scale), 0.0, clamp(density, 0.0, 1.0), clamp(width, 0.0, 0.2), spread, seed);
 }
 
 /// Strokes over a window. A stroke is up to 1.6 long, so that those of the cells around are all that reach a point.

@@ -18,12 +18,12 @@ const SIMPLEX_SCALE3: f32 = 76.8;
 /// - return: -1 to 1, mean 0
 /// @vertex node_procedural_simplex_noise_2d_vertex
 fn node_procedural_simplex_noise_2d(uv: vec2f, scale: f32, seed: i32) -> f32 {
-    return node_procedural_simplex_noise_2d_vertex(uv, scale, seed) * left_of_noise(2.83, squared_footprint2(uv * scale));
+    return node_procedural_simplex_noise_2d_vertex(uv, scale, seed) * left_of_noise(2.83, squared_footprint2(held2(uv * scale)));
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_simplex_noise_2d_vertex(uv: vec2f, scale: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     // Skewing by (sqrt(3) - 1) / 2 makes squares of the pairs of triangles; (3 - sqrt(3)) / 6 undoes it.
     let corner = floor(p + (p.x + p.y) * 0.36602540);
     let d0 = p - corner + (corner.x + corner.y) * 0.21132487;
@@ -53,12 +53,12 @@ fn node_procedural_simplex_noise_2d_vertex(uv: vec2f, scale: f32, seed: i32) -> 
 /// - return: -1 to 1, mean 0
 /// @vertex node_procedural_simplex_noise_3d_vertex
 fn node_procedural_simplex_noise_3d(position: vec3f, scale: f32, seed: i32) -> f32 {
-    return node_procedural_simplex_noise_3d_vertex(position, scale, seed) * left_of_noise(2.83, squared_footprint(position * scale));
+    return node_procedural_simplex_noise_3d_vertex(position, scale, seed) * left_of_noise(2.83, squared_footprint(held3(position * scale)));
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_simplex_noise_3d_vertex(position: vec3f, scale: f32, seed: i32) -> f32 {
-    let p = position * scale;
+    let p = held3(position * scale);
     let corner = floor(p + (p.x + p.y + p.z) / 3.0);
     let d0 = p - corner + (corner.x + corner.y + corner.z) / 6.0;
     // The tetrahedron is the order of the components: step along the greatest first, then along the next.

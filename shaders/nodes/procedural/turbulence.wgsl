@@ -19,13 +19,13 @@ const MEAN_OF_RIDGES: vec2f = vec2f(0.574, 0.643);
 /// - return: 0 to 1
 /// @vertex node_procedural_turbulence_2d_vertex
 fn node_procedural_turbulence_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return turbulence2(p, squared_footprint2(p), octaves, lacunarity, gain, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_turbulence_2d_vertex(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    return turbulence2(uv * scale, 0.0, octaves, lacunarity, gain, seed);
+    return turbulence2(held2(uv * scale), 0.0, octaves, lacunarity, gain, seed);
 }
 
 /// Turbulence over a window of `squared_width`.
@@ -59,13 +59,13 @@ fn turbulence2(start: vec2f, squared_width: f32, octaves: i32, lacunarity: f32, 
 /// - return: 0 to 1
 /// @vertex node_procedural_turbulence_3d_vertex
 fn node_procedural_turbulence_3d(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    let p = position * scale;
+    let p = held3(position * scale);
     return turbulence3(p, squared_footprint(p), octaves, lacunarity, gain, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_turbulence_3d_vertex(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    return turbulence3(position * scale, 0.0, octaves, lacunarity, gain, seed);
+    return turbulence3(held3(position * scale), 0.0, octaves, lacunarity, gain, seed);
 }
 
 /// Turbulence over a window of `squared_width`.
@@ -100,13 +100,13 @@ fn turbulence3(start: vec3f, squared_width: f32, octaves: i32, lacunarity: f32, 
 /// - return: 0 to 1
 /// @vertex node_procedural_ridged_2d_vertex
 fn node_procedural_ridged_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return ridged2(p, squared_footprint2(p), octaves, lacunarity, gain, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_ridged_2d_vertex(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    return ridged2(uv * scale, 0.0, octaves, lacunarity, gain, seed);
+    return ridged2(held2(uv * scale), 0.0, octaves, lacunarity, gain, seed);
 }
 
 /// Ridged Noise over a window of `squared_width`.
@@ -141,13 +141,13 @@ fn ridged2(start: vec2f, squared_width: f32, octaves: i32, lacunarity: f32, gain
 /// - return: 0 to 1
 /// @vertex node_procedural_ridged_3d_vertex
 fn node_procedural_ridged_3d(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    let p = position * scale;
+    let p = held3(position * scale);
     return ridged3(p, squared_footprint(p), octaves, lacunarity, gain, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_ridged_3d_vertex(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    return ridged3(position * scale, 0.0, octaves, lacunarity, gain, seed);
+    return ridged3(held3(position * scale), 0.0, octaves, lacunarity, gain, seed);
 }
 
 /// Ridged Noise over a window of `squared_width`.

@@ -32,13 +32,13 @@ fn lattice_mix3(cell: vec3i, weights: vec3f, seed: i32) -> f32 {
 /// - return: 0 to 1, mean 0.5
 /// @vertex node_procedural_value_noise_2d_vertex
 fn node_procedural_value_noise_2d(uv: vec2f, scale: f32, seed: i32) -> f32 {
-    let left = left_of_noise(0.4, squared_footprint2(uv * scale));
+    let left = left_of_noise(0.4, squared_footprint2(held2(uv * scale)));
     return mix(0.5, node_procedural_value_noise_2d_vertex(uv, scale, seed), left);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_value_noise_2d_vertex(uv: vec2f, scale: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return lattice_mix2(vec2i(floor(p)), fade(vec3f(fract(p), 0.0)).xy, seed);
 }
 
@@ -53,12 +53,12 @@ fn node_procedural_value_noise_2d_vertex(uv: vec2f, scale: f32, seed: i32) -> f3
 /// - return: 0 to 1, mean 0.5
 /// @vertex node_procedural_value_noise_3d_vertex
 fn node_procedural_value_noise_3d(position: vec3f, scale: f32, seed: i32) -> f32 {
-    let left = left_of_noise(0.4, squared_footprint(position * scale));
+    let left = left_of_noise(0.4, squared_footprint(held3(position * scale)));
     return mix(0.5, node_procedural_value_noise_3d_vertex(position, scale, seed), left);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_value_noise_3d_vertex(position: vec3f, scale: f32, seed: i32) -> f32 {
-    let p = position * scale;
+    let p = held3(position * scale);
     return lattice_mix3(vec3i(floor(p)), fade(fract(p)), seed);
 }

@@ -10,13 +10,13 @@
 /// - return: each -amount to amount, mean 0
 /// @vertex node_procedural_vector_noise_2d_vertex
 fn node_procedural_vector_noise_2d(uv: vec2f, scale: f32, amount: f32, seed: i32) -> vec2f {
-    let left = left_of_noise(1.0, squared_footprint2(uv * scale));
+    let left = left_of_noise(1.0, squared_footprint2(held2(uv * scale)));
     return left * node_procedural_vector_noise_2d_vertex(uv, scale, amount, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_vector_noise_2d_vertex(uv: vec2f, scale: f32, amount: f32, seed: i32) -> vec2f {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return amount * vec2f(gradient_noise2(p, seed), gradient_noise2(p, seed + 1));
 }
 
@@ -32,12 +32,12 @@ fn node_procedural_vector_noise_2d_vertex(uv: vec2f, scale: f32, amount: f32, se
 /// - return: each -amount to amount, mean 0
 /// @vertex node_procedural_vector_noise_3d_vertex
 fn node_procedural_vector_noise_3d(position: vec3f, scale: f32, amount: f32, seed: i32) -> vec3f {
-    let left = left_of_noise(1.0, squared_footprint(position * scale));
+    let left = left_of_noise(1.0, squared_footprint(held3(position * scale)));
     return left * node_procedural_vector_noise_3d_vertex(position, scale, amount, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_vector_noise_3d_vertex(position: vec3f, scale: f32, amount: f32, seed: i32) -> vec3f {
-    let p = position * scale;
+    let p = held3(position * scale);
     return amount * vec3f(gradient_noise3(p, seed), gradient_noise3(p, seed + 1), gradient_noise3(p, seed + 2));
 }

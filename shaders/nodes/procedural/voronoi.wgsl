@@ -30,7 +30,7 @@ struct Voronoi2dOutputs {
 /// @vertex node_procedural_voronoi_2d_vertex
 fn node_procedural_voronoi_2d(uv: vec2f, scale: f32, jitter: f32, metric: i32, exponent: f32, seed: i32) -> Voronoi2dOutputs {
     let cells = node_procedural_voronoi_2d_vertex(uv, scale, jitter, metric, exponent, seed);
-    let window = squared_footprint2(uv * scale);
+    let window = squared_footprint2(held2(uv * scale));
     let q = inverse_exponent(metric, clamp(exponent, LEAST_EXPONENT, GREATEST_EXPONENT));
     let j = clamp(jitter, 0.0, 1.0);
     // Means over the pattern, by metric and jitter, measured; right to 0.03.
@@ -42,7 +42,7 @@ fn node_procedural_voronoi_2d(uv: vec2f, scale: f32, jitter: f32, metric: i32, e
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_voronoi_2d_vertex(uv: vec2f, scale: f32, jitter: f32, metric: i32, exponent: f32, seed: i32) -> Voronoi2dOutputs {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     let cell = vec2i(floor(p));
     let f = fract(p);
     let e = clamp(exponent, LEAST_EXPONENT, GREATEST_EXPONENT);
@@ -95,7 +95,7 @@ struct Voronoi3dOutputs {
 /// @vertex node_procedural_voronoi_3d_vertex
 fn node_procedural_voronoi_3d(position: vec3f, scale: f32, jitter: f32, metric: i32, exponent: f32, seed: i32) -> Voronoi3dOutputs {
     let cells = node_procedural_voronoi_3d_vertex(position, scale, jitter, metric, exponent, seed);
-    let window = squared_footprint(position * scale);
+    let window = squared_footprint(held3(position * scale));
     let q = inverse_exponent(metric, clamp(exponent, 0.75, GREATEST_EXPONENT));
     let j = clamp(jitter, 0.0, 1.0);
     // Means over the pattern, by metric and jitter, measured; right to 0.02.
@@ -107,7 +107,7 @@ fn node_procedural_voronoi_3d(position: vec3f, scale: f32, jitter: f32, metric: 
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_voronoi_3d_vertex(position: vec3f, scale: f32, jitter: f32, metric: i32, exponent: f32, seed: i32) -> Voronoi3dOutputs {
-    let p = position * scale;
+    let p = held3(position * scale);
     let cell = vec3i(floor(p));
     let f = fract(p);
     let e = clamp(exponent, 0.75, GREATEST_EXPONENT);

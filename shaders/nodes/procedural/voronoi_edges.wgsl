@@ -21,13 +21,13 @@ struct VoronoiEdgesOutputs {
 /// - seed: another one, another pattern [0; 0..100]
 /// @vertex node_procedural_voronoi_edges_vertex
 fn node_procedural_voronoi_edges(uv: vec2f, scale: f32, jitter: f32, width: f32, seed: i32) -> VoronoiEdgesOutputs {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return voronoi_edges(p, squared_footprint2(p), clamp(jitter, 0.0, 1.0), width, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_voronoi_edges_vertex(uv: vec2f, scale: f32, jitter: f32, width: f32, seed: i32) -> VoronoiEdgesOutputs {
-    return voronoi_edges(uv * scale, 0.0, clamp(jitter, 0.0, 1.0), width, seed);
+    return voronoi_edges(held2(uv * scale), 0.0, clamp(jitter, 0.0, 1.0), width, seed);
 }
 
 /// The random point of a cell, and in z the cell's random value.

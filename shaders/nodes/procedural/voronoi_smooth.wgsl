@@ -28,7 +28,7 @@ struct VoronoiSmooth2dOutputs {
 /// @vertex node_procedural_voronoi_smooth_2d_vertex
 fn node_procedural_voronoi_smooth_2d(uv: vec2f, scale: f32, jitter: f32, smoothness: f32, metric: i32, exponent: f32, seed: i32) -> VoronoiSmooth2dOutputs {
     let cells = node_procedural_voronoi_smooth_2d_vertex(uv, scale, jitter, smoothness, metric, exponent, seed);
-    let window = squared_footprint2(uv * scale);
+    let window = squared_footprint2(held2(uv * scale));
     let q = inverse_exponent(metric, clamp(exponent, LEAST_EXPONENT, GREATEST_EXPONENT));
     let j = clamp(jitter, 0.0, 1.0);
     let s = clamp(smoothness, 0.0, 1.0);
@@ -41,7 +41,7 @@ fn node_procedural_voronoi_smooth_2d(uv: vec2f, scale: f32, jitter: f32, smoothn
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_voronoi_smooth_2d_vertex(uv: vec2f, scale: f32, jitter: f32, smoothness: f32, metric: i32, exponent: f32, seed: i32) -> VoronoiSmooth2dOutputs {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     let cell = vec2i(floor(p));
     let f = fract(p);
     let e = clamp(exponent, LEAST_EXPONENT, GREATEST_EXPONENT);
@@ -105,7 +105,7 @@ struct VoronoiSmooth3dOutputs {
 /// @vertex node_procedural_voronoi_smooth_3d_vertex
 fn node_procedural_voronoi_smooth_3d(position: vec3f, scale: f32, jitter: f32, smoothness: f32, metric: i32, exponent: f32, seed: i32) -> VoronoiSmooth3dOutputs {
     let cells = node_procedural_voronoi_smooth_3d_vertex(position, scale, jitter, smoothness, metric, exponent, seed);
-    let window = squared_footprint(position * scale);
+    let window = squared_footprint(held3(position * scale));
     let q = inverse_exponent(metric, clamp(exponent, 0.75, GREATEST_EXPONENT));
     let j = clamp(jitter, 0.0, 1.0);
     let s = clamp(smoothness, 0.0, 1.0);
@@ -118,7 +118,7 @@ fn node_procedural_voronoi_smooth_3d(position: vec3f, scale: f32, jitter: f32, s
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_voronoi_smooth_3d_vertex(position: vec3f, scale: f32, jitter: f32, smoothness: f32, metric: i32, exponent: f32, seed: i32) -> VoronoiSmooth3dOutputs {
-    let p = position * scale;
+    let p = held3(position * scale);
     let cell = vec3i(floor(p));
     let f = fract(p);
     let e = clamp(exponent, 0.75, GREATEST_EXPONENT);

@@ -23,13 +23,13 @@ fn waves(phase: f32, window: f32) -> WaveOutputs {
 /// - distortion: moves the bands, in periods [0; -2..2]
 /// @vertex node_procedural_wave_vertex
 fn node_procedural_wave(uv: vec2f, count: f32, distortion: f32) -> WaveOutputs {
-    let phase = uv.x * count + distortion;
+    let phase = held1(uv.x * count + distortion);
     return waves(phase, fwidth(phase));
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_wave_vertex(uv: vec2f, count: f32, distortion: f32) -> WaveOutputs {
-    return waves(uv.x * count + distortion, 0.0);
+    return waves(held1(uv.x * count + distortion), 0.0);
 }
 
 /// Rings
@@ -42,11 +42,11 @@ fn node_procedural_wave_vertex(uv: vec2f, count: f32, distortion: f32) -> WaveOu
 /// - distortion: moves the rings, in periods [0; -2..2]
 /// @vertex node_procedural_rings_vertex
 fn node_procedural_rings(uv: vec2f, center: vec2f, count: f32, distortion: f32) -> WaveOutputs {
-    let phase = distance(uv, center) * count + distortion;
+    let phase = held1(length(held2(uv - center)) * count + distortion);
     return waves(phase, fwidth(phase));
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_rings_vertex(uv: vec2f, center: vec2f, count: f32, distortion: f32) -> WaveOutputs {
-    return waves(distance(uv, center) * count + distortion, 0.0);
+    return waves(held1(length(held2(uv - center)) * count + distortion), 0.0);
 }

@@ -17,13 +17,13 @@ struct WeaveOutputs {
 /// - thread: width of a thread over its place [0.85; 0..1]
 /// @vertex node_procedural_weave_vertex
 fn node_procedural_weave(uv: vec2f, count: vec2f, thread: f32) -> WeaveOutputs {
-    let p = uv * count;
+    let p = held2(uv * count);
     return weave(p, fwidth(p), thread);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_weave_vertex(uv: vec2f, count: vec2f, thread: f32) -> WeaveOutputs {
-    return weave(uv * count, vec2f(0.0), thread);
+    return weave(held2(uv * count), vec2f(0.0), thread);
 }
 
 /// The weave over a window.

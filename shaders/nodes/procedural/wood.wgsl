@@ -29,13 +29,13 @@ fn node_procedural_wood_vertex(position: vec3f, scale: f32, wobble: f32, seed: i
 
 /// Rings from the axis to the point. The wobble is noise of a few rings' size, drawn out along the trunk.
 fn wood_age(position: vec3f, scale: f32, wobble: f32, seed: i32) -> f32 {
-    let p = position * scale;
-    return length(p.xz) + wobble * gradient_noise3(p * vec3f(0.23, 0.05, 0.23), seed);
+    let p = held3(position * scale);
+    return held1(length(p.xz) + wobble * gradient_noise3(p * vec3f(0.23, 0.05, 0.23), seed));
 }
 
 /// Where the point lies in the noise of fibres, which are six to a ring and forty times as long.
 fn wood_fiber(position: vec3f, scale: f32) -> vec3f {
-    return position * scale * vec3f(6.0, 0.15, 6.0);
+    return held3(position * scale) * vec3f(6.0, 0.15, 6.0);
 }
 
 /// The rings and fibres over their windows.

@@ -25,7 +25,7 @@ struct WorleyOutputs {
 /// @vertex node_procedural_worley_2d_vertex
 fn node_procedural_worley_2d(uv: vec2f, scale: f32, jitter: f32, seed: i32) -> WorleyOutputs {
     let cells = node_procedural_worley_2d_vertex(uv, scale, jitter, seed);
-    let window = squared_footprint2(uv * scale);
+    let window = squared_footprint2(held2(uv * scale));
     let j = clamp(jitter, 0.0, 1.0);
     // Means over the pattern, by jitter, measured.
     let f1 = mix(0.382 + j * (0.0079 + 0.039 * j), cells.f1, left_of_noise(1.35, window));
@@ -35,7 +35,7 @@ fn node_procedural_worley_2d(uv: vec2f, scale: f32, jitter: f32, seed: i32) -> W
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_worley_2d_vertex(uv: vec2f, scale: f32, jitter: f32, seed: i32) -> WorleyOutputs {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     let cell = vec2i(floor(p));
     let f = fract(p);
     var nearest = WorleyOutputs(1.0, 1.0, 0.0);
@@ -66,7 +66,7 @@ fn node_procedural_worley_2d_vertex(uv: vec2f, scale: f32, jitter: f32, seed: i3
 /// @vertex node_procedural_worley_3d_vertex
 fn node_procedural_worley_3d(position: vec3f, scale: f32, jitter: f32, seed: i32) -> WorleyOutputs {
     let cells = node_procedural_worley_3d_vertex(position, scale, jitter, seed);
-    let window = squared_footprint(position * scale);
+    let window = squared_footprint(held3(position * scale));
     let j = clamp(jitter, 0.0, 1.0);
     // Means over the pattern, by jitter, measured.
     let f1 = mix(0.48 + j * (0.0085 + 0.0318 * j), cells.f1, left_of_noise(1.35, window));
@@ -76,7 +76,7 @@ fn node_procedural_worley_3d(position: vec3f, scale: f32, jitter: f32, seed: i32
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_worley_3d_vertex(position: vec3f, scale: f32, jitter: f32, seed: i32) -> WorleyOutputs {
-    let p = position * scale;
+    let p = held3(position * scale);
     let cell = vec3i(floor(p));
     let f = fract(p);
     var nearest = WorleyOutputs(1.0, 1.0, 0.0);

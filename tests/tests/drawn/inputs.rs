@@ -6,7 +6,7 @@ use halfvector_codegen::reflection::{
 use halfvector_codegen::uniforms::{FrameValues, ObjectValues, fill_input};
 use halfvector_graph::library::Library;
 use halfvector_graph::value::{ColorSpace, Filter, Wrap};
-use halfvector_ibl::{Visibility, dfg_table_with, direction_from_face};
+use halfvector_ibl::{DFG_SIZE, Visibility, dfg_table_with, direction_from_face};
 use halfvector_scene::Mesh;
 use halfvector_scene::light::{lights_by_kind, parse_light};
 use halfvector_scene::mesh::MeshData;
@@ -67,7 +67,7 @@ impl Inputs {
         for binding in &golden.shader.reflection.bindings {
             match &binding.resource {
                 Resource::Uniform(block) => {
-                    let bytes = block.pack(|source: &UniformSource, numbers: &mut Vec<f32>| {
+                    let bytes = block.pack(|source: &UniformSource, numbers: &mut Vec<f64>| {
                         frame.fill(source, numbers);
                         object.fill(source, numbers);
                         fill_input(&golden.document, Library::standard(), block, source, numbers);
@@ -208,7 +208,7 @@ fn texture(source: &TextureSource) -> Texture {
         TextureSource::PrefilteredRadiance => cube(LEVELS),
         TextureSource::IrradianceOverPi => cube(1),
         TextureSource::Dfg => {
-            let table = dfg_table_with(32, Visibility::Correlated);
+            let table = dfg_table_with(DFG_SIZE, Visibility::Correlated);
             Texture { format: Format::Rg16F, is_cube: false, levels: vec![(table.size as u32, dfg_bytes(&table))] }
         }
     }

@@ -95,3 +95,62 @@ fn every_node_is_finite() {
     println!("{tried} functions on {ROWS} rows or more");
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
+
+/// The ends of f32 and what lies around 0.
+const EXTREMES: [f32; 14] =
+    [0.0, -0.0, 1e-38, -1e-38, 1e-45, 1.0, -1.0, 0.3, 3e9, -3e9, 1e38, -1e38, f32::MAX, f32::MIN];
+
+/// Rows of extremes: each component alone with the others at their defaults, then all at once.
+fn extreme_rows(node: &Node) -> Vec<Vec<f32>> {
+    let mut rows = Vec::new();
+    let defaults = node.defaults();
+    for component in 0..defaults.len() {
+        for x in EXTREMES {
+            let mut row = defaults.clone();
+            row[component] = x;
+            rows.push(row);
+        }
+    }
+    for row in 0..ROWS {
+        rows.push(
+            (0..defaults.len())
+                .map(|c| EXTREMES[(row * (2 * c + 1) + c * c + row / 14 * c) % EXTREMES.len()])
+                .collect(),
+        );
+    }
+    rows
+}
+
+/// Whatever finite numbers come into a pattern, a number comes out: positions and scales at the ends of f32, whose product
+/// overflows, and pixels that are as wide. Elsewhere what is too large for f32 is infinite, as in all arithmetic, and a shader's
+/// end guards its colour; how many nodes that is is told. What is no number comes out as it likes, but it comes out.
+#[test]
+fn patterns_are_finite_for_every_finite_input() {
+    let (mut failures, mut overflows) = (Vec::new(), std::collections::BTreeMap::<&str, usize>::new());
+    for def in Library::standard().iter().filter(|def| !def.id.starts_with("surface/")) {
+        let category = def.id.split('/').next().unwrap_or_default();
+        for ty in types(def) {
+            for vertex in [false, true] {
+                if vertex && def.vertex_function.is_none() {
+                    continue;
+                }
+                let node = Node::of(def, ty, vertex);
+                let rows = extreme_rows(&node);
+                let wide = vec![f32::MAX; node.defaults().len()];
+                node.call::<f32>(&[f32::NAN, f32::INFINITY].map(|x| vec![x; wide.len()]));
+                let found = [node.call::<f32>(&rows), node.run::<f32>(&rows, Some((&wide, &wide)))];
+                let all = found.iter().flat_map(|found| rows.iter().zip(found));
+                let Some((row, found)) = all.into_iter().find(|(_, found)| found.iter().any(|x| !x.is_finite())) else {
+                    continue;
+                };
+                if category == "procedural" {
+                    failures.push(format!("{} of {ty:?}, vertex {vertex}: {found:?} at {row:?}", def.id));
+                } else {
+                    *overflows.entry(category).or_default() += 1;
+                }
+            }
+        }
+    }
+    println!("functions that give what is no finite number for some finite ones, by category: {overflows:?}");
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}

@@ -76,6 +76,7 @@ pub(crate) const WGSL_ONLY: &[(&str, &str)] = &[
     ("refracted_cosine", "private in Rust: compared through transmission_direction"),
     ("specular_lit", "a part of specular_eval"),
     ("tangent_across", "anisotropic_tangent for the rotation 0"),
+    ("thin_film_lit", "thin_film_shift and thin_film_fresnel"),
     ("tilt_from_texel", "a part of normal_from_texel"),
 ];
 

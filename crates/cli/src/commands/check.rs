@@ -2,6 +2,7 @@
 
 mod stability;
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use halfvector_codegen::{CodegenError, Cost, Fold, Instructions, NodeCost, Shader};
@@ -74,6 +75,9 @@ struct Costed {
 /// Most nodes whose cost is listed as text.
 const MOST_COSTED: usize = 20;
 
+/// Most equal problems of a file that are listed as text.
+const MOST_EQUAL: usize = 20;
+
 /// Runs the command.
 pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let mut found = Vec::new();
@@ -116,7 +120,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
     }
     match args.format {
         Format::Text => {
-            let mut lines: Vec<_> = found.iter().map(|f| format!("{}: {}", f.file.display(), f.problem)).collect();
+            let mut lines = problem_lines(&found);
             let is_sound = lines.is_empty() && !judged.iter().any(Judged::is_unstable);
             lines.extend(judged.iter().flat_map(Judged::lines));
             lines.extend(costed.iter().flat_map(cost_lines));
@@ -143,6 +147,33 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
         (false, true) => FOUND,
         (false, false) => 0,
     })
+}
+
+/// A line for each problem; those that say the same of more than [`MOST_EQUAL`] nodes of a file are counted from there on.
+fn problem_lines(found: &[Found]) -> Vec<String> {
+    let mut counts = HashMap::new();
+    let mut lines = Vec::new();
+    let same = |f: &Found| (f.file.clone(), f.problem.severity, f.problem.message.clone());
+    for f in found {
+        let count = counts.entry(same(f)).or_insert(0_usize);
+        *count += 1;
+        if *count <= MOST_EQUAL {
+            lines.push(format!("{}: {}", f.file.display(), f.problem));
+        }
+    }
+    for f in found {
+        if let Some(more) =
+            counts.remove(&same(f)).and_then(|count| count.checked_sub(MOST_EQUAL)).filter(|more| *more > 0)
+        {
+            let (file, message) = (f.file.display(), &f.problem.message);
+            let severity = if f.problem.severity == Severity::Error { "error" } else { "warning" };
+            let nodes = if more == 1 { "node" } else { "nodes" };
+            lines.push(format!(
+                "{file}: {severity}: of {more} {nodes} more: {message}; `--format json` lists all of them"
+            ));
+        }
+    }
+    lines
 }
 
 fn as_json(found: &Found) -> serde_json::Value {

@@ -4,6 +4,7 @@
 use crate::CodegenError;
 use crate::emit::expression::{EnvironmentTexture, ViewMember};
 use crate::emit::fragment::Shading;
+use crate::emit::terms::Terms;
 
 /// One lookup of the prefiltered environment by reflection.
 struct Mirror<'m> {
@@ -15,6 +16,15 @@ struct Mirror<'m> {
     dir: &'m str,
     /// Whether it fades below the horizon of the geometry.
     horizon: bool,
+}
+
+/// Another lookup of the prefiltered environment.
+struct Lookup {
+    /// What is seen there.
+    name: &'static str,
+    /// Direction in the environment.
+    dir: String,
+    roughness: String,
 }
 
 impl Shading<'_, '_, '_> {
@@ -43,8 +53,12 @@ impl Shading<'_, '_, '_> {
             let irradiance = self.irradiance()?;
             self.line(&format!("let irradiance = {irradiance};"));
         }
-        self.base()?;
-        self.layers_above()
+        self.lookups()?;
+        let mut terms = Terms::default();
+        self.base(&mut terms)?;
+        self.layers_above(&mut terms)?;
+        self.sum_up(terms);
+        Ok(())
     }
 
     /// Whether the base's reflection is looked up between the mirror direction and the normal.
@@ -74,24 +88,96 @@ impl Shading<'_, '_, '_> {
         self.parts.plan.anisotropy && self.parts.needs.methods.is("anisotropy", "strips")
     }
 
-    /// Light that the base reflects, along the tangent of a brushed surface.
-    fn reflection(&mut self, roughness: &str) -> Result<(), CodegenError> {
-        if !self.strips() {
-            let reflection = self.prefiltered("reflection_dir", roughness)?;
-            self.line(&format!("let reflection = {reflection};"));
-            return Ok(());
+    /// The light of all lobes: of each lookup of the prefiltered environment a line, but in one loop where the base's
+    /// reflection is a row of them.
+    fn lookups(&mut self) -> Result<(), CodegenError> {
+        let mut lookups = Vec::new();
+        if self.parts.plan.transmission {
+            lookups.push(self.transmitted()?);
         }
-        let (strip, count) = (self.writer.library("anisotropic_strip")?, self.writer.library("ANISOTROPIC_STRIPS")?);
+        if self.parts.plan.coat {
+            lookups.push(self.coat_reflection()?);
+        }
+        if self.strips() {
+            let (rough, smooth) = lookups.into_iter().partition(|lookup| self.by_hermite(&lookup.roughness));
+            self.loop_of_strips(rough)?;
+            lookups = smooth;
+        } else if self.parts.plan.specular {
+            let (dir, roughness) = ("reflection_dir".to_owned(), self.specular_roughness.clone());
+            lookups.insert(0, Lookup { name: "reflection", dir, roughness });
+        }
+        for Lookup { name, dir, roughness } in lookups {
+            let sample = self.prefiltered(&dir, &roughness)?;
+            self.line(&format!("let {name} = {sample};"));
+        }
+        Ok(())
+    }
+
+    /// Light that the base reflects along the tangent of a brushed surface, and what other lobes see: a lookup is long, and its
+    /// code stands in the shader once.
+    fn loop_of_strips(&mut self, others: Vec<Lookup>) -> Result<(), CodegenError> {
+        let (strip, strips) = (self.writer.library("anisotropic_strip")?, self.writer.library("ANISOTROPIC_STRIPS")?);
+        let strip = format!("let strip = {strip}(frame, tangent, alphas.x, alphas.y, f32(i));");
         let direction = self.leaned("frame", "strip.dir", "strip.perceptual_roughness")?;
         let direction = self.turned(&direction)?;
-        let sample = self.prefiltered(&direction, "strip.perceptual_roughness")?;
         self.line("var strips = vec4f(0.0);");
-        self.line(&format!("for (var i = 0u; i < {count}; i++) {{"));
-        self.line(&format!("    let strip = {strip}(frame, tangent, alphas.x, alphas.y, f32(i));"));
-        self.line(&format!("    strips += strip.weight * vec4f({sample}, 1.0);"));
+        for Lookup { name, .. } in &others {
+            self.line(&format!("var {name} = vec3f(0.0);"));
+        }
+        let Some((Lookup { dir, roughness, .. }, rest)) = others.split_first() else {
+            let sample = self.prefiltered(&direction, "strip.perceptual_roughness")?;
+            self.line(&format!("for (var i = 0u; i < {strips}; i++) {{"));
+            self.line(&format!("    {strip}"));
+            self.line(&format!("    strips += strip.weight * vec4f({sample}, 1.0);"));
+            self.line("}");
+            self.line("let reflection = strips.rgb / strips.a;");
+            return Ok(());
+        };
+        self.line(&format!("for (var i = 0u; i < {strips} + {}u; i++) {{", others.len()));
+        self.line(&format!("    var lookup = vec4f({dir}, {roughness});"));
+        self.line("    var weight = 0.0;");
+        self.line(&format!("    if i < {strips} {{"));
+        self.line(&format!("        {strip}"));
+        self.line(&format!("        lookup = vec4f({direction}, strip.perceptual_roughness);"));
+        self.line("        weight = strip.weight;");
+        for (k, Lookup { dir, roughness, .. }) in rest.iter().enumerate() {
+            self.line(&format!("    }} else if i == {strips} + {}u {{", k + 1));
+            self.line(&format!("        lookup = vec4f({dir}, {roughness});"));
+        }
+        self.line("    }");
+        let sample = self.prefiltered("lookup.xyz", "lookup.w")?;
+        self.line(&format!("    let seen = {sample};"));
+        self.line("    strips += weight * vec4f(seen, 1.0);");
+        // What was seen last is handed on from name to name, so that each has its own in the end.
+        let next = rest.iter().map(|lookup| lookup.name).chain(["seen"]);
+        for (Lookup { name, .. }, next) in others.iter().zip(next) {
+            self.line(&format!("    {name} = {next};"));
+        }
         self.line("}");
         self.line("let reflection = strips.rgb / strips.a;");
         Ok(())
+    }
+
+    /// Where light comes from that passes the base.
+    fn transmitted(&mut self) -> Result<Lookup, CodegenError> {
+        let roughness = self.root("perceptual_roughness", "0.5");
+        let (dir, roughness) = if self.parts.plan.thin_walled {
+            let direction = format!("-{}", self.leaned("frame", "frame.view_dir", &roughness)?);
+            (self.turned(&direction)?, roughness)
+        } else {
+            let lookup = self.writer.library("transmission_lookup")?;
+            self.line(&format!("let behind = {lookup}(frame, transmission.eta, transmission.alpha);"));
+            (self.turned("behind.dir")?, "behind.perceptual_roughness".to_owned())
+        };
+        Ok(Lookup { name: "transmitted", dir, roughness })
+    }
+
+    /// Where light comes from that the coat reflects.
+    fn coat_reflection(&mut self) -> Result<Lookup, CodegenError> {
+        let (frame, roughness) = (self.coat_frame, self.root("coat_roughness", "0.0"));
+        self.line(&format!("let coat_mirror_dir = reflect(-{frame}.view_dir, {frame}.normal);"));
+        let direction = self.leaned(frame, "coat_mirror_dir", &roughness)?;
+        Ok(Lookup { name: "coat_reflection", dir: self.turned(&direction)?, roughness })
     }
 
     /// The direction of the base's reflection in the world.
@@ -130,21 +216,19 @@ impl Shading<'_, '_, '_> {
     }
 
     /// The lobes of the base.
-    fn base(&mut self) -> Result<(), CodegenError> {
+    fn base(&mut self, terms: &mut Terms) -> Result<(), CodegenError> {
         let plan = self.parts.plan;
-        let (roughness, base) = (self.root("perceptual_roughness", "0.5"), self.over_base);
         let occlusion = self.occlusion();
         if plan.diffuse {
             let lobe = self.writer.library("diffuse_environment")?;
-            self.add(&format!("{lobe}(diffuse, irradiance){occlusion}{base}"));
+            terms.base.push(format!("{lobe}(diffuse, irradiance){occlusion}"));
         }
         if plan.multiscatter {
             let lobe = self.writer.library("multiscatter_environment")?;
-            self.add(&format!("{lobe}(multiscatter, irradiance){occlusion}{base}"));
+            terms.base.push(format!("{lobe}(multiscatter, irradiance){occlusion}"));
         }
         if plan.specular {
             let width = self.specular_roughness.clone();
-            self.reflection(&width)?;
             let compensated = if plan.compensation { " * compensation" } else { "" };
             let dir = if self.has_mirror() { "mirror_dir" } else { "reflection_dir" };
             let mirror = Mirror { name: "", frame: "frame", roughness: &width, dir, horizon: plan.horizon };
@@ -154,53 +238,51 @@ impl Shading<'_, '_, '_> {
             } else {
                 "specular_environment"
             })?;
-            self.add(&format!("{lobe}(specular, reflection, dfg){compensated}{hidden}{base}"));
+            terms.base.push(format!("{lobe}(specular, reflection, dfg){compensated}{hidden}"));
         }
         if plan.transmission {
-            let transmitted = if plan.thin_walled {
-                let mut direction = self.leaned("frame", "frame.view_dir", &roughness)?;
-                direction.insert(0, '-');
-                let direction = self.turned(&direction)?;
-                self.prefiltered(&direction, &roughness)?
-            } else {
-                let lookup = self.writer.library("transmission_lookup")?;
-                self.line(&format!("let behind = {lookup}(frame, transmission.eta, transmission.alpha);"));
-                let direction = self.turned("behind.dir")?;
-                self.prefiltered(&direction, "behind.perceptual_roughness")?
-            };
-            self.line(&format!("let transmitted = {transmitted};"));
             let (lobe, mut f0) = (self.writer.library("transmission_environment")?, self.root("dielectric_f0", "0.0"));
             if plan.seen_from_inside() {
                 // From inside nothing comes through beyond the critical angle, of which f0 knows nothing.
                 let fresnel = self.writer.library("f_dielectric")?;
                 f0 = format!("select({fresnel}(transmission.eta, frame.n_dot_v), {f0}, front_facing)");
             }
-            self.add(&format!("{lobe}(transmission, {f0}, transmitted, dfg){base}"));
+            terms.base.push(format!("{lobe}(transmission, {f0}, transmitted, dfg)"));
         }
         Ok(())
     }
 
     /// The lobes over it.
-    fn layers_above(&mut self) -> Result<(), CodegenError> {
+    fn layers_above(&mut self, terms: &mut Terms) -> Result<(), CodegenError> {
         let plan = self.parts.plan;
         if plan.coat {
             let (frame, roughness) = (self.coat_frame, self.root("coat_roughness", "0.0"));
-            self.line(&format!("let coat_mirror_dir = reflect(-{frame}.view_dir, {frame}.normal);"));
-            let direction = self.leaned(frame, "coat_mirror_dir", &roughness)?;
-            let direction = self.turned(&direction)?;
-            let reflection = self.prefiltered(&direction, &roughness)?;
-            self.line(&format!("let coat_reflection = {reflection};"));
             let (dir, horizon) = ("coat_mirror_dir", plan.coat_horizon);
             let hidden = self.hidden(&Mirror { name: "coat_", frame, roughness: &roughness, dir, horizon })?;
-            let (lobe, above) = (self.writer.library("coat_environment")?, self.over_coat);
-            self.add(&format!("{lobe}(coat, coat_reflection, coat_dfg){hidden}{above}"));
+            let lobe = self.writer.library("coat_environment")?;
+            terms.coat = Some(format!("{lobe}(coat, coat_reflection, coat_dfg){hidden}"));
         }
         if plan.sheen {
             let (lobe, occlusion) = (self.writer.library("sheen_environment")?, self.occlusion());
             let light = if plan.sheen_ring { self.sheen_ring()? } else { "irradiance".into() };
-            self.add(&format!("{lobe}(sheen, frame.n_dot_v, {light}){occlusion}"));
+            terms.sheen = Some(format!("{lobe}(sheen, frame.n_dot_v, {light}){occlusion}"));
         }
         Ok(())
+    }
+
+    /// Adds the terms to what the lights gave.
+    fn sum_up(&mut self, terms: Terms) {
+        if !terms.is_layered() {
+            for term in terms.base {
+                self.add(&term);
+            }
+            return;
+        }
+        let (lines, sum) = terms.summed("reflected");
+        for line in lines {
+            self.line(&line);
+        }
+        self.add(&sum);
     }
 
     /// The environment's light as the sheen sees it, by two lookups: the second in the last level but one.
@@ -227,14 +309,19 @@ impl Shading<'_, '_, '_> {
     /// A lookup of the prefiltered environment in a direction of its own.
     fn prefiltered(&mut self, direction: &str, roughness: &str) -> Result<String, CodegenError> {
         let methods = &self.parts.needs.methods;
-        // Up to the first prefiltered level they are mixed linearly, which is what the GPU does by itself.
-        let is_smooth = roughness.parse().is_ok_and(|roughness: f32| roughness <= 0.1);
-        let hermite = methods.is("level_map", "hermite") && !is_smooth;
+        let hermite = self.by_hermite(roughness);
         let sample = self.writer.library(if hermite { "environment_sample_hermite" } else { "environment_sample" })?;
         let lod = self.writer.library(methods.get("level_map").function.unwrap_or("lod_geometric"))?;
         let cube = self.writer.environment(EnvironmentTexture::PrefilteredRadiance);
         let levels = self.writer.view(ViewMember::EnvironmentLevels);
         self.encoded(format!("{sample}({cube}, {direction}, {lod}({roughness}, {levels}))"))
+    }
+
+    /// Whether a lookup mixes levels by their slopes: up to the first prefiltered level they are mixed linearly, which is
+    /// what the GPU does by itself.
+    fn by_hermite(&self, roughness: &str) -> bool {
+        let is_smooth = roughness.parse().is_ok_and(|roughness: f32| roughness <= 0.1);
+        self.parts.needs.methods.is("level_map", "hermite") && !is_smooth
     }
 
     /// A reflection as the report codes it, or as it is.

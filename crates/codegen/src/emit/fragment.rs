@@ -8,6 +8,7 @@ use halfvector_graph::needs::{Needs, ShaderOutput, ToneMap};
 
 use crate::CodegenError;
 use crate::emit::expression::{Entrance, EnvironmentTexture, Names, Uses, ViewMember, Writer};
+use crate::emit::lights::single;
 use crate::emit::text::Text;
 use crate::emit::value::number;
 use crate::ir::Program;
@@ -36,8 +37,6 @@ pub(crate) fn fragment(parts: &FragmentParts<'_, '_>) -> Result<(Text, Uses), Co
         writer,
         lines: Text::default(),
         first: true,
-        over_coat: "",
-        over_base: "",
         coat_frame: "frame",
         specular_roughness: String::new(),
     };
@@ -83,9 +82,6 @@ pub(crate) struct Shading<'s, 'p, 'a> {
     lines: Text,
     /// Whether nothing has been added to `radiance` yet.
     pub(crate) first: bool,
-    /// What the layers above leave to the coat, and to the base: factors in text.
-    pub(crate) over_coat: &'static str,
-    pub(crate) over_base: &'static str,
     /// The frame of the coat.
     pub(crate) coat_frame: &'static str,
     /// The perceptual roughness at which the specular lobe's albedo is looked up.
@@ -248,9 +244,17 @@ impl Shading<'_, '_, '_> {
         if !plan.reads_dfg() {
             return Ok(());
         }
-        let (cosine, shift) = (self.writer.library("thin_film_cosine")?, self.writer.library("thin_film_shift")?);
+        let cosine = self.writer.library("thin_film_cosine")?;
         self.line(&format!("let film_cosine = {cosine}(dfg);"));
-        self.line(&format!("let film_shift = {shift}({f0}, {f90}, film, film_cosine);"));
+        if let Some(kind) = self.film_with_light() {
+            self.light_sample(kind)?;
+            let (both, l_dot_h) = (self.writer.library("thin_film_lit")?, self.light_cosine(&single(kind))?);
+            self.line(&format!("let film_lit = {both}({f0}, {f90}, film, film_cosine, {l_dot_h});"));
+            self.line("let film_shift = film_lit.shift;");
+        } else {
+            let shift = self.writer.library("thin_film_shift")?;
+            self.line(&format!("let film_shift = {shift}({f0}, {f90}, film, film_cosine);"));
+        }
         let (f0, f90) = self.dielectric_colors();
         let below = self.dielectric_shift();
         if plan.parts_film() {
@@ -303,19 +307,12 @@ impl Shading<'_, '_, '_> {
             self.line(&format!("let coat = {lobe}({weight}, {color}, {f0}, {alpha});"));
             self.line(&format!("let coat_dfg = {dfg};"));
             self.line(&format!("let under_coat = {below}(coat, {n_dot_v}, coat_dfg);"));
-            self.over_base = " * under_coat";
         }
         if plan.sheen {
             let (lobe, below) = (self.writer.library("Sheen")?, self.writer.library("sheen_base")?);
             let (color, roughness) = (self.root("sheen_color", "vec3f(0.0)"), self.root("sheen_roughness", "0.3"));
             self.line(&format!("let sheen = {lobe}({color}, {roughness});"));
             self.line(&format!("let under_sheen = {below}(sheen, frame.n_dot_v);"));
-            self.over_coat = " * under_sheen";
-            self.over_base = " * under_sheen";
-        }
-        if plan.coat && plan.sheen {
-            self.line("let under_layers = under_coat * under_sheen;");
-            self.over_base = " * under_layers";
         }
         Ok(())
     }
@@ -358,7 +355,9 @@ impl Shading<'_, '_, '_> {
         let plan = self.parts.plan;
         if plan.emission {
             let emission = self.root("emission", "vec3f(0.0)");
-            self.add(&format!("{emission}{}", self.over_base));
+            let under_coat = if plan.coat { " * under_coat" } else { "" };
+            let under_sheen = if plan.sheen { " * under_sheen" } else { "" };
+            self.add(&format!("{emission}{under_coat}{under_sheen}"));
         }
         if self.first {
             self.add("vec3f(0.0)");

@@ -7,6 +7,7 @@ mod header;
 mod interface;
 mod lights;
 mod material;
+mod terms;
 pub(crate) mod text;
 mod value;
 pub(crate) mod vertex;

@@ -10,8 +10,10 @@ pub(crate) fn literal(literal: &Literal) -> String {
     match literal.ty {
         Type::Bool => (components[0] != 0.0).to_string(),
         // Its digits alone are no i32.
-        Type::I32 if components[0] as i32 == i32::MIN => "i32(-2147483648)".to_owned(),
-        Type::I32 => format!("{}i", components[0] as i32),
+        Type::I32 => match literal.numbers()[0] as i32 {
+            i32::MIN => "i32(-2147483648)".to_owned(),
+            integer => format!("{integer}i"),
+        },
         Type::F32 => number(components[0]),
         ty if components.iter().all(|c| c.to_bits() == components[0].to_bits()) => {
             format!("{}({})", ty.wgsl(), number(components[0]))
@@ -49,7 +51,10 @@ mod tests {
         }
         assert_eq!(literal(&Literal::new(Type::Vec3, &[0.5])), "vec3f(0.5)");
         assert_eq!(literal(&Literal::new(Type::Vec2, &[0.5, -1.0])), "vec2f(0.5, -1.0)");
-        assert_eq!(literal(&Literal::new(Type::I32, &[-3.0])), "-3i");
+        for integer in [-3, 0, 16_777_217, -16_777_217, i32::MAX, i32::MIN + 1] {
+            assert_eq!(literal(&Literal::new(Type::I32, &[f64::from(integer)])), format!("{integer}i"));
+        }
+        assert_eq!(literal(&Literal::new(Type::I32, &[f64::from(i32::MIN)])), "i32(-2147483648)");
         assert_eq!(literal(&Literal::new(Type::Bool, &[1.0])), "true");
     }
 }

@@ -37,7 +37,7 @@ pub(crate) fn fold_stage<'a>(stage: &mut Stage<'a>, index: &Index, faults: &mut 
             Expr::Convert { of } => arena
                 .as_literal(*of)
                 .zip(value_type(entry.ty))
-                .map(|(literal, to)| Folded::Literal(Literal::new(to, &literal.components()))),
+                .map(|(literal, to)| Folded::Literal(Literal::new(to, &literal.numbers()))),
             Expr::Field { of, name } => structs.get(of).and_then(|members| {
                 members.iter().find(|(n, _)| n == name).map(|(_, literal)| Folded::Literal(*literal))
             }),
@@ -144,7 +144,7 @@ fn builtin(arena: &Arena<'_>, name: &str, arguments: &[Id], ty: Option<Type>) ->
         "*" if is(1, 1.0) => same_or_spread(arena, arguments[0], ty),
         "*" => {
             let (a, b) = (literal(0)?.components(), literal(1)?.components());
-            let product: Vec<f32> = (0..ty.components()).map(|i| a[i % a.len()] * b[i % b.len()]).collect();
+            let product: Vec<f64> = (0..ty.components()).map(|i| f64::from(a[i % a.len()] * b[i % b.len()])).collect();
             Some(Folded::Literal(Literal::new(ty, &product)))
         }
         "mix" => end_of_mix(arena, arguments, ty).or_else(|| {
@@ -153,10 +153,13 @@ fn builtin(arena: &Arena<'_>, name: &str, arguments: &[Id], ty: Option<Type>) ->
                 let t = t[i % t.len()];
                 a[i % a.len()] * (1.0 - t) + b[i % b.len()] * t
             };
-            Some(Folded::Literal(Literal::new(ty, &(0..ty.components()).map(mixed).collect::<Vec<f32>>())))
+            Some(Folded::Literal(Literal::new(
+                ty,
+                &(0..ty.components()).map(mixed).map(f64::from).collect::<Vec<f64>>(),
+            )))
         }),
         "saturate" => {
-            let held: Vec<f32> = literal(0)?.components().iter().map(|x| x.clamp(0.0, 1.0)).collect();
+            let held: Vec<f64> = literal(0)?.numbers().iter().map(|x| x.clamp(0.0, 1.0)).collect();
             Some(Folded::Literal(Literal::new(ty, &held)))
         }
         _ => None,
@@ -187,13 +190,11 @@ fn number(literal: &Literal) -> Number {
         Type::I32 => Kind::Int,
         _ => Kind::Float,
     };
-    let components: Vec<f64> = literal.components().iter().map(|x| f64::from(*x)).collect();
-    Number::new(kind, &components)
+    Number::new(kind, &literal.numbers())
 }
 
 fn literal(ty: Type, number: &Number) -> Literal {
-    let components: Vec<f32> = number.components().iter().map(|x| *x as f32).collect();
-    Literal::new(ty, &components)
+    Literal::new(ty, number.components())
 }
 
 fn type_of(number: &Number) -> Option<Type> {

@@ -194,9 +194,9 @@ impl<'a, 't> Lowering<'a, 't> {
             return Ok(arena.convert(id, ty));
         }
         let set = info.values.get(&def.name);
-        let components = match (set.and_then(Value::components), &def.default) {
-            (Some(components), _) => components.to_vec(),
-            (None, Default::Value(value)) => value.components().unwrap_or(&[0.0]).to_vec(),
+        let components = match (set.and_then(Value::numbers), &def.default) {
+            (Some(components), _) => components,
+            (None, Default::Value(value)) => value.numbers().unwrap_or_else(|| vec![0.0]),
             (None, Default::Context(name)) => return Ok(self.context(arena, name, ty)),
             (None, Default::Image(_) | Default::Surface) => vec![0.0],
         };
@@ -208,7 +208,7 @@ impl<'a, 't> Lowering<'a, 't> {
             node,
             socket: SocketRef { node: info.id.clone(), socket: def.name.clone() },
             ty,
-            value: crate::ir::Literal::new(ty, &components).components(),
+            value: crate::ir::Literal::new(ty, &components).numbers(),
             parameter,
         });
         Ok(arena.push(Entry { expr: Expr::Input(input), ty: Ty::Value(ty), node: Some(node), hint: "" }))
@@ -352,14 +352,14 @@ pub(super) fn unit_normal<'a>(arena: &mut Arena<'a>, types: &Types<'a>, id: Id) 
 
 /// The value that an unconnected input of a document has (`socket.node` may be a path into groups), with as many components as `ty` takes: what
 /// `UniformSource::Input` is filled with. `None` for what has no number (a texture, an unset context, an unknown node).
-pub fn input_value(document: &Document, library: &Library, socket: &SocketRef, ty: Type) -> Option<Vec<f32>> {
+pub fn input_value(document: &Document, library: &Library, socket: &SocketRef, ty: Type) -> Option<Vec<f64>> {
     let (_, _, node) = find(document, &socket.node)?;
     let default = |default: &Default| match default {
-        Default::Value(value) => value.components().map(<[f32]>::to_vec),
+        Default::Value(value) => value.numbers(),
         Default::Context(_) | Default::Image(_) | Default::Surface => None,
     };
     let components = match (node.values.get(&socket.socket), group_of(&node.node)) {
-        (Some(value), _) => value.components()?.to_vec(),
+        (Some(value), _) => value.numbers()?,
         (None, Some(group)) => {
             let inputs = &document.groups.get(group)?.interface.inputs;
             default(&inputs.iter().find(|i| i.name == socket.socket)?.default)?
@@ -378,5 +378,5 @@ pub fn input_value(document: &Document, library: &Library, socket: &SocketRef, t
             default(&def.inputs.iter().find(|i| i.name == socket.socket)?.default)?
         }
     };
-    Some(crate::ir::Literal::new(ty, &components).components())
+    Some(crate::ir::Literal::new(ty, &components).numbers())
 }

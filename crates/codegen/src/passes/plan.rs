@@ -12,13 +12,15 @@ use crate::ir::{Expr, Id, Program, Stage};
 use crate::reflection::LightKind;
 use crate::{Dropped, Fold};
 
-/// Largest reflectance at normal incidence of a dielectric whose multiple-scattering compensation is left out.
-pub(crate) const COMPENSATION_MIN_F0: f32 = 0.08;
+/// Largest reflectance at normal incidence, and largest perceptual roughness, of a dielectric whose multiple-scattering
+/// compensation is left out.
+pub(crate) const COMPENSATION_MIN_F0: f32 = 0.045;
+pub(crate) const COMPENSATION_MIN_ROUGHNESS: f32 = 0.4;
 
-/// The most that leaving the compensation out changes the light that a surface reflects, as a part of the light that
-/// falls on it from a uniform environment, in percent: the greatest f0 (f0 a + b) (1 - E)/E with E = a + b at f0 = 0.08.
-/// A test computes it by quadrature.
-pub(crate) const COMPENSATION_BOUND_PERCENT: f32 = 0.7;
+/// The most that leaving the compensation out changes what the specular lobe reflects, in percent: the greatest f0 (1 - E)/E with
+/// E = a + b up to these two. On a display, whose codes go with the 2.2nd root of light or slower, it is less than one of 255
+/// steps, however bright the light and however dark the base. A test computes it by quadrature.
+pub(crate) const COMPENSATION_BOUND_PERCENT: f32 = 0.8;
 
 /// What is left out of the shader of a surface that is no metal anywhere.
 pub(crate) const METAL: &str = "metal";
@@ -162,8 +164,8 @@ impl Keep {
 /// taken on the program as it is exported.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constants {
-    /// The dielectric's f0 when it is known and nothing can change it.
-    pub(crate) dielectric_f0: Option<f32>,
+    /// The dielectric's f0 and perceptual roughness where both are known and nothing can change them.
+    pub(crate) dielectric: Option<[f32; 2]>,
 }
 
 /// What the surface's sockets are known to be.
@@ -190,8 +192,8 @@ impl Known<'_, '_> {
                 },
                 Expr::Literal(literal) if literal.is_all(x) => {}
                 Expr::Input(input)
-                    if self.fold == Fold::Live && self.program.inputs[*input].value.iter().all(|value| *value == x) => {
-                }
+                    if self.fold == Fold::Live
+                        && self.program.inputs[*input].value.iter().all(|value| *value == f64::from(x)) => {}
                 _ => return false,
             }
         }
@@ -202,10 +204,12 @@ impl Known<'_, '_> {
     fn constant(&self, stage: &Stage<'_>, weight: Id) -> Option<f32> {
         match &stage.arena.get(weight).expr {
             Expr::Literal(literal) => literal.components().first().copied(),
-            Expr::Input(input) if self.fold == Fold::Live => self.program.inputs[*input].value.first().copied(),
+            Expr::Input(input) if self.fold == Fold::Live => {
+                self.program.inputs[*input].value.first().map(|x| *x as f32)
+            }
             Expr::Builtin { name: "saturate", arguments } => match &stage.arena.get(arguments[0]).expr {
                 Expr::Input(input) if self.fold == Fold::Live => {
-                    self.program.inputs[*input].value.first().map(|x| x.clamp(0.0, 1.0))
+                    self.program.inputs[*input].value.first().map(|x| x.clamp(0.0, 1.0) as f32)
                 }
                 _ => None,
             },
@@ -294,9 +298,10 @@ pub(super) fn decide(program: &Program<'_>, wanted: Wanted<'_>) -> Plan {
     if lit && metal == Metal::None && plan.specular {
         plan.drop_it(METAL, "metallic is 0: f0 comes from the index of refraction alone", Keep::Socket("metallic"));
     }
-    if plan.specular
-        && compensates(&mut plan, needs, constants.dielectric_f0.filter(|_| !film && keep != Some(Keep::Compensation)))
-    {
+    // What spreads the lobe beyond its roughness, or changes its f0.
+    let spread = film || !absent(&known, "anisotropy") || needs.methods.get("specular_aa").function.is_some();
+    let fixed = constants.dielectric.filter(|_| !spread && keep != Some(Keep::Compensation));
+    if plan.specular && compensates(&mut plan, needs, fixed) {
         plan.multiscatter = needs.methods.is("compensation", "kulla_conty");
         plan.compensation = !plan.multiscatter;
     }
@@ -355,20 +360,20 @@ fn absent(known: &Known<'_, '_>, socket: &str) -> bool {
     known.program.fragment.root(socket).is_none() || known.surface(socket, 0.0)
 }
 
-/// `fixed_f0` is the dielectric's when nothing can change it: no film either.
-fn compensates(plan: &mut Plan, needs: &Needs, fixed_f0: Option<f32>) -> bool {
+/// `fixed` are f0 and roughness of a dielectric when nothing can change them.
+fn compensates(plan: &mut Plan, needs: &Needs, fixed: Option<[f32; 2]>) -> bool {
     if needs.methods.is("compensation", "none") {
         let default = Keep::Method("compensation", "turquin");
         plan.drop_it("energy compensation", "the method is `none`: single scattering only", default);
         return false;
     }
-    match fixed_f0 {
-        Some(f0) if f0 <= COMPENSATION_MIN_F0 => {
+    match fixed {
+        Some([f0, roughness]) if f0 <= COMPENSATION_MIN_F0 && roughness <= COMPENSATION_MIN_ROUGHNESS => {
             plan.drop_it(
                 "energy compensation",
                 format!(
-                    "f0 is {f0:.3} and fixed: it would change radiance by less than {COMPENSATION_BOUND_PERCENT} % of that of a \
-                     uniform environment"
+                    "f0 is {f0:.3} and perceptual roughness {roughness:.3}, both fixed: it would change the specular lobe by less \
+                     than {COMPENSATION_BOUND_PERCENT} %"
                 ),
                 Keep::Compensation,
             );

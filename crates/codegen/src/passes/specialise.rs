@@ -15,16 +15,15 @@ pub(crate) fn constants(program: &Program<'_>, index: &Index) -> Constants {
     let literal = |socket: &str| stage.root(socket).and_then(|id| stage.arena.as_literal(id));
     let is = |socket: &str, x: f32| literal(socket).is_some_and(|l| l.is_all(x));
     let fixed = ["ior", "specular"].iter().all(|socket| literal(socket).is_some());
-    if !is("metallic", 0.0) || !fixed {
-        return Constants { dielectric_f0: None };
-    }
+    let roughness = literal("perceptual_roughness").filter(|_| is("metallic", 0.0) && fixed);
+    let Some(roughness) = roughness.map(|l| l.components()[0]) else { return Constants { dielectric: None } };
     let mut probe = Stage::default();
     if let Some(ior) = literal("ior") {
-        let id = probe.arena.literal(ior.ty, &ior.components());
+        let id = probe.arena.literal(ior.ty, &ior.numbers());
         probe.roots.insert("ior", id);
     }
     if let Some(specular) = literal("specular") {
-        let id = probe.arena.literal(specular.ty, &specular.components());
+        let id = probe.arena.literal(specular.ty, &specular.numbers());
         probe.roots.insert("specular", id);
     }
     let weight = input(&mut probe, "specular", Type::F32, 1.0);
@@ -32,7 +31,7 @@ pub(crate) fn constants(program: &Program<'_>, index: &Index) -> Constants {
     probe.roots.insert("dielectric_f0", f0);
     fold_stage(&mut probe, index, &mut Vec::new());
     let folded = probe.root("dielectric_f0").and_then(|id| probe.arena.as_literal(id));
-    Constants { dielectric_f0: folded.map(|l| l.components()[0]) }
+    Constants { dielectric: folded.map(|l| [l.components()[0], roughness]) }
 }
 
 /// The sockets that shading reads, of a surface that has all of them.
@@ -150,7 +149,7 @@ struct Reflectances {
 /// f0 and f90 of the specular lobe. Khronos 2021, KHR_materials_ior and KHR_materials_specular: the dielectric's are
 /// scaled by the weight `specular`, a metal's f0 is its base colour and its f90 is 1.
 fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full: bool, sheet: bool) -> Reflectances {
-    let arena_one = |stage: &mut Stage<'a>, x: f32| stage.arena.literal(Type::Vec3, &[x]);
+    let arena_one = |stage: &mut Stage<'a>, x: f64| stage.arena.literal(Type::Vec3, &[x]);
     if metal == Metal::Whole {
         let (f0, f90) = (input(stage, "base_color", Type::Vec3, 0.5), arena_one(stage, 1.0));
         return Reflectances { f0, f90, dielectric: None };
@@ -223,7 +222,7 @@ fn dielectric_f0(stage: &mut Stage<'_>, weight: Id, full: bool, weightless: bool
 }
 
 /// A socket's value, or a constant for a surface node that has no such socket.
-fn input(stage: &mut Stage<'_>, socket: &'static str, ty: Type, otherwise: f32) -> Id {
+fn input(stage: &mut Stage<'_>, socket: &'static str, ty: Type, otherwise: f64) -> Id {
     match stage.root(socket) {
         Some(id) => id,
         None => stage.arena.literal(ty, &[otherwise]),

@@ -38,7 +38,7 @@ fn a_function_of_the_users_is_linked_with_what_it_calls() {
     }
     // What is not set is filled in from the function's own defaults.
     let softness = input_value(&document, Library::standard(), &SocketRef::new("tartan", "softness"), Type::F32);
-    assert_eq!(softness, Some(vec![0.01]));
+    assert_eq!(softness, Some(vec![f64::from(0.01_f32)]));
     let alone = material(&document, Library::standard(), &sun().methods).unwrap_or_else(|e| panic!("{e}"));
     validate(&alone).unwrap_or_else(|e| panic!("{e}\n{}", alone.wgsl));
 }

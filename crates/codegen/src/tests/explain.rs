@@ -68,7 +68,8 @@ fn everything_left_out_is_counted() {
     }
     let single = told(&material(r#""metallic": 1"#, "", ""), &bare);
     assert!(saved(&single, "energy compensation") > 0);
-    assert!(saved(&told(&material("", "", ""), &sun()), "energy compensation") > 0);
+    let smooth = material(r#""perceptual_roughness": 0.3"#, "", "");
+    assert!(saved(&told(&smooth, &sun()), "energy compensation") > 0);
 }
 
 /// `coat = 0.5 * 0 * noise` leaves no word of it in the text, and is told beside.
@@ -126,6 +127,25 @@ fn nodes_that_are_left_out_are_told() {
         format!("// left out: 5 nodes that nothing reads or whose values are known (save {saved} instructions)\n");
     assert!(shader.header().contains(&line), "{}", shader.header());
     assert!(told_of_none(&maps()), "nothing is left out of it");
+}
+
+/// Of nodes that compute the same one is in the shader; the others are told.
+#[test]
+fn a_node_that_another_one_stands_for_is_told() {
+    let shader = told(
+        &material(
+            "",
+            r#""noise": {"node": "procedural/value_noise_2d"}, "one": {"node": "math/sin", "label": "One"},
+               "two": {"node": "math/sin", "label": "Two"}, "sum": {"node": "math/add"}"#,
+            r#"{"from": "noise.out", "to": "one.x"}, {"from": "noise.out", "to": "two.x"}, {"from": "one.out", "to": "sum.a"},
+               {"from": "two.out", "to": "sum.b"}, {"from": "sum.out", "to": "surface.perceptual_roughness"}"#,
+        ),
+        &sun(),
+    );
+    let told: Vec<_> =
+        shader.dropped_nodes.iter().map(|n| (n.label.as_str(), n.why.as_str(), n.instructions)).collect();
+    assert_eq!(told, [("Two", "another node computes the same", Some(1))], "{}", shader.wgsl);
+    assert_eq!(shader.wgsl.matches("sin(").count(), 1, "{}", shader.wgsl);
 }
 
 fn told_of_none(document: &Document) -> bool {

@@ -7,6 +7,7 @@ mod figures;
 mod folding;
 mod groups;
 mod hostile;
+mod integers;
 mod mixed;
 mod nodes;
 mod only_needed;

@@ -33,7 +33,7 @@ pub(crate) fn socket_type(ty: SocketType) -> &'static str {
 pub(crate) fn example(ty: SocketType) -> &'static str {
     match ty {
         SocketType::Value(Type::Bool) => "true or false",
-        SocketType::Value(Type::I32) => "a whole number, such as 3",
+        SocketType::Value(Type::I32) => "a whole number from -2147483648 to 2147483647, such as 3",
         SocketType::Value(Type::F32) => "a number, such as 0.5",
         SocketType::Value(Type::Vec2) => "two numbers, such as [0.5, 0.5]",
         SocketType::Value(Type::Vec3) => "three numbers, such as [0.5, 0.5, 0.5]",
@@ -48,7 +48,10 @@ pub(crate) fn example(ty: SocketType) -> &'static str {
 pub(crate) fn value(value: &Value) -> String {
     match value {
         Value::Bool(b) => b.to_string(),
+        // As an f64 it has all its digits.
+        Value::Number(x) if x.fract() == 0.0 => format!("the number {}", f64::from(*x)),
         Value::Number(x) => format!("the number {x}"),
+        Value::Integer(x) => format!("the number {x}"),
         Value::Vec2(_) => "two numbers".into(),
         Value::Vec3(_) => "three numbers".into(),
         Value::Vec4(_) => "four numbers".into(),

@@ -305,7 +305,7 @@ impl Parts<'_> {
 fn spread(value: &Value, ty: SocketType) -> Value {
     let SocketType::Value(ty) = ty else { return value.clone() };
     match (ty, value.components_as(ty).as_deref()) {
-        (Type::Bool, _) => Value::Bool(value.components().is_some_and(|c| c.iter().any(|x| *x != 0.0))),
+        (Type::Bool, _) => Value::Bool(value.numbers().is_some_and(|c| c.iter().any(|x| *x != 0.0))),
         (_, Some(&[x, y])) => Value::Vec2([x, y]),
         (_, Some(&[x, y, z])) => Value::Vec3([x, y, z]),
         (_, Some(&[x, y, z, w])) => Value::Vec4([x, y, z, w]),

@@ -206,7 +206,7 @@ impl Numbers<'_> {
         let component = way.first().and_then(|part| "xyzw".find(part)).unwrap_or_default();
         let reflection = &self.shader.reflection;
         if let Some(parameter) = reflection.parameters.iter().find(|parameter| parameter.name == name) {
-            let default = f64::from(parameter.default.get(component).copied().unwrap_or_default());
+            let default = parameter.default.get(component).copied().unwrap_or_default();
             let is_finite = |range: &[f32; 2]| range.iter().all(|x| x.is_finite());
             let [from, to] = parameter.range.filter(is_finite).unwrap_or([0.0, 1.0]);
             return Source::Parameter { default, from: f64::from(from), to: f64::from(to) };
@@ -219,7 +219,7 @@ impl Numbers<'_> {
                 fill_input(self.document, Library::standard(), block, &member.source, &mut numbers);
             }
         }
-        Source::Fixed(numbers.get(component).copied().map_or(0.0, f64::from))
+        Source::Fixed(numbers.get(component).copied().unwrap_or_default())
     }
 }
 

@@ -70,8 +70,8 @@ pub(super) enum MaterialEntry {
 #[serde(untagged, expecting = "a value is a number, true or false, or a list of numbers")]
 pub(super) enum Numbers {
     Switch(bool),
-    One(f32),
-    Many(Vec<f32>),
+    One(f64),
+    Many(Vec<f64>),
 }
 
 /// Scaled, then turned about Y, X and Z in this order, then moved; or a matrix alone.

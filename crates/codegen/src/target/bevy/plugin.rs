@@ -165,13 +165,13 @@ fn rust_type(ty: UniformType) -> &'static str {
     }
 }
 
-fn rust_value(ty: UniformType, numbers: &[f32]) -> String {
+fn rust_value(ty: UniformType, numbers: &[f64]) -> String {
     let number = |i: usize| numbers.get(i).copied().unwrap_or(0.0);
     match ty {
         UniformType::Value(Type::I32 | Type::Bool) => format!("{}", number(0) as i32),
-        UniformType::Value(Type::F32) => format!("{:?}", number(0)),
+        UniformType::Value(Type::F32) => format!("{:?}", number(0) as f32),
         UniformType::Value(ty) => {
-            let numbers: Vec<String> = (0..ty.components()).map(|i| format!("{:?}", number(i))).collect();
+            let numbers: Vec<String> = (0..ty.components()).map(|i| format!("{:?}", number(i) as f32)).collect();
             format!("{}::new({})", rust_type(UniformType::Value(ty)), numbers.join(", "))
         }
         _ => "Default::default()".to_owned(),

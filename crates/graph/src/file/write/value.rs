@@ -14,6 +14,7 @@ pub(super) fn value_json(value: &Value) -> String {
     match value {
         Value::Bool(b) => b.to_string(),
         Value::Number(x) => number(*x),
+        Value::Integer(x) => x.to_string(),
         Value::Vec2(v) => numbers(v),
         Value::Vec3(v) => numbers(v),
         Value::Vec4(v) => numbers(v),
