@@ -57,8 +57,8 @@ pub(crate) enum Told {
     Progress(String, f32),
     /// How much noise the reference is left with, as a share of the light, and its paths for each pixel.
     Truth(f64, u64),
-    /// What of the material the reference leaves out: errors there are not the shader's.
-    Notes(Vec<String>),
+    /// What of the material is no finite number, in words: errors there are not the shader's.
+    Faults(Vec<String>),
     /// One way of shading against the truth.
     Row(Row),
     /// The furnace's picture and figures.
@@ -140,7 +140,6 @@ impl Bench {
         let options = RenderOptions { width: EDGE, height: EDGE, shadows: false, ..RenderOptions::default() };
         let loaded = job.light.as_ref().map(|light| &light.loaded);
         let mut reference = Reference::new(self.easel.scene(), loaded, options).map_err(|error| error.to_string())?;
-        outbox.send(Told::Notes(reference.notes().to_vec()));
         let truth = loop {
             reference.add_samples(16, &|_| {}).map_err(|error| error.to_string())?;
             let truth = reference.picture();
@@ -148,6 +147,7 @@ impl Bench {
             let all: f64 = truth.pixels.iter().flat_map(|pixel| &pixel[..3]).sum();
             let share = if all > 0.0 { noise / all } else { 0.0 };
             outbox.send(Told::Truth(share, truth.samples));
+            outbox.send(Told::Faults(reference.faults()));
             outbox.send(Told::Progress("The reference".to_owned(), truth.samples as f32 / ENOUGH as f32));
             if stale.is_stale() {
                 return Ok(());

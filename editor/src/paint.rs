@@ -130,8 +130,8 @@ pub(crate) struct Noise {
     pub(crate) share: f64,
     /// Standard error of each channel of each pixel.
     pub(crate) of_pixels: Arc<[[f64; 3]]>,
-    /// What of the material the reference leaves out.
-    pub(crate) notes: Arc<[String]>,
+    /// What of the material is no finite number, in words.
+    pub(crate) faults: Arc<[String]>,
 }
 
 /// Why there is no picture.

@@ -1,4 +1,4 @@
-//! The CPU's picture against the GPU's, for every example: the same shader, so the same colours but for rounding, and the
+//! The CPU's picture against the GPU's, for every example, every node, and models: the same shader, so the same colours but for rounding, and the
 //! same rules of coverage, so the same silhouettes.
 //!
 //! Differences are of display values, 0 to 1, after the scene's exposure and tone map and the sRGB curve.
@@ -17,7 +17,7 @@ use halfvector_scene::light::parse_light;
 use halfvector_scene::tone_map::tone_mapped;
 use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, MeshSource, Picture, Scene, load_scene};
 
-use crate::support::{renderer, root};
+use crate::support::{data, renderer, root};
 
 /// Pixels on a side.
 const SIZE: u32 = 48;
@@ -27,6 +27,9 @@ const SIDE: u32 = 4;
 
 /// The share of pixels that may be more than a code apart.
 const MOST_APART: f64 = 0.001;
+
+/// Others' models: many materials, and textures with all the ways to repeat and to filter them.
+const MODELS: [&str; 2] = ["models/MetalRoughSpheresNoTextures.glb", "models/TextureSettingsTest.glb"];
 
 /// One step of an 8-bit display.
 const CODE: f32 = 1.0 / 255.0;
@@ -175,6 +178,14 @@ fn every_example_looks_the_same_on_the_cpu() {
     }
     for path in examples(".scene.json") {
         scenes.push((name(&path), load_scene(&path).unwrap_or_else(|e| panic!("{e}"))));
+    }
+    for path in examples_in("examples/nodes", ".material.json") {
+        scenes.push((format!("nodes/{}", name(&path)), material(&path)));
+    }
+    for model in MODELS {
+        if let Some(path) = data(model) {
+            scenes.push((name(&path), Scene::from_model(&path).unwrap_or_else(|e| panic!("{e}"))));
+        }
     }
     let mut failed = Vec::new();
     println!("{:<40} {:>10} {:>10} {:>8} {:>8}", "example", "apart", "boxed/255", "gpu s", "cpu s");

@@ -61,7 +61,7 @@ pub(crate) struct Chosen {
     paths: u64,
     studio: Measured,
     lamp: Option<f64>,
-    notes: Vec<String>,
+    faults: Vec<String>,
 }
 
 /// Methods to try, one for each term that has a choice.
@@ -139,7 +139,7 @@ pub(crate) fn choose(wanted: Asked<'_>) -> Result<Chosen, Failure> {
                     paths,
                     studio: found,
                     lamp,
-                    notes: studio.notes().to_vec(),
+                    faults: studio.faults(),
                 });
             }
         }
@@ -162,7 +162,7 @@ pub(crate) fn choose(wanted: Asked<'_>) -> Result<Chosen, Failure> {
             smallest = Some((most, measured, lamp, candidate));
         }
     }
-    Err(refusal(max_error, smallest, studio.notes()))
+    Err(refusal(max_error, smallest, &studio.faults()))
 }
 
 /// The terms that show under `studio`, where no punctual light is.
@@ -301,7 +301,7 @@ fn reached_in_words(studio: &Measured, paths: u64, lamp: Option<f64>) -> String 
     format!("under studio {error}, with the reference's noise ({paths} paths a pixel) at most {most}{lamp}")
 }
 
-fn refusal(max_error: f64, smallest: Option<(f64, Measured, Option<f64>, &Candidate)>, notes: &[String]) -> Failure {
+fn refusal(max_error: f64, smallest: Option<(f64, Measured, Option<f64>, &Candidate)>, faults: &[String]) -> Failure {
     let failure = Failure::input(format!("no choice of methods keeps the error within {max_error}"));
     let Some((most, studio, lamp, candidate)) = smallest else { return failure };
     let methods: Vec<String> = candidate.terms.iter().map(|figure| in_words(figure)).collect();
@@ -309,7 +309,7 @@ fn refusal(max_error: f64, smallest: Option<(f64, Measured, Option<f64>, &Candid
     let failure = failure
         .because(format!("the smallest that can be reached is {}", rounded_up(most)))
         .because(format!("{methods}: {}", reached_in_words(&studio, ROUNDS[ROUNDS.len() - 1], lamp)));
-    let failure = notes.iter().fold(failure, |failure, note| failure.because(note));
+    let failure = faults.iter().fold(failure, |failure, fault| failure.because(fault));
     failure.try_to(format!(
         "--max-error {}; or --method TERM=NAME for a term whose method is what the material means: it is kept, and true",
         rounded_up(most)
@@ -353,7 +353,7 @@ impl Chosen {
                 "lamp": self.lamp.map(|error| json!({ "error": error, "light": LAMP, "pixels": [SIZE, SIZE] })),
             },
             "truth": self.truth,
-            "left_out_by_the_reference": self.notes,
+            "not_finite": self.faults,
         })
     }
 
@@ -361,8 +361,8 @@ impl Chosen {
     pub(crate) fn in_words(&self) -> String {
         let said: Vec<String> =
             self.remarks().into_iter().map(|remark| format!("{}: {}", remark.lead, remark.text)).collect();
-        let notes = self.notes.iter().map(|note| format!("\nnote: {note}")).collect::<String>();
-        format!("{}{notes}", said.join("\n"))
+        let faults = self.faults.iter().map(|fault| format!("\nwarning: {fault}")).collect::<String>();
+        format!("{}{faults}", said.join("\n"))
     }
 }
 

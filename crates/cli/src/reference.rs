@@ -33,7 +33,6 @@ pub(crate) fn draw(scene: &Scene, options: ReferenceOptions, output: &PictureFil
     let render = RenderOptions { width, height, seed, bounces, ..RenderOptions::default() };
     let environment = load(&scene.environment)?;
     let mut reference = Reference::new(scene, environment.as_ref(), render).map_err(failed)?;
-    reference.notes().iter().for_each(|text| note(format_args!("note: {text}")));
     let bar = Mutex::new((progress("rendering"), 0.0_f32));
     let told = |done: f32| {
         // A thread that panicked while it held the bar has ended the program anyway.

@@ -30,7 +30,7 @@ pub use explain::{Remark, explained};
 pub use layout::PackError;
 pub use line_map::{Lines, line_map};
 pub use passes::lower::input_value;
-pub use pipeline::{material, material_live, shader};
+pub use pipeline::{Height, height, material, material_live, shader};
 pub use validate::{Place, Valid, ValidationError, place_of, validate};
 
 use halfvector_graph::document::NodeId;

@@ -10,12 +10,13 @@ use halfvector_graph::method::Methods;
 use halfvector_graph::needs::Needs;
 
 use crate::emit::expression::Names;
+use crate::emit::material::Product;
 use crate::fate::{self, Fates};
-use crate::ir::Program;
+use crate::ir::{Expr, Program};
 use crate::link::Index;
 use crate::names::Namer;
 use crate::passes::drop_unused::{drop_dead, drop_unused};
-use crate::passes::lower::{lower, lower_material};
+use crate::passes::lower::{StageKind, lower, lower_height, lower_material};
 use crate::passes::plan::{Keep, Plan, Wanted};
 use crate::passes::specialise::{constants, specialise};
 use crate::passes::types::Types;
@@ -146,20 +147,79 @@ pub fn material_live(document: &Document, library: &Library, methods: &Methods) 
 
 fn alone(document: &Document, library: &Library, methods: &Methods, fold: Fold) -> Result<Shader, CodegenError> {
     let sound = Sound::new(document, library)?;
-    let Material { document, library, index, types } = sound.material()?;
+    let material = sound.material()?;
     // lower
-    let mut program = lower_material(&types, methods, fold)?;
-    // fold constants
-    let faults = fold::fold(&mut program, index);
-    no_faults(document, library, &program, &faults)?;
-    // drop unused
-    drop_unused(&mut program);
-    // share common subexpressions
-    share(&mut program);
-    // name
-    let names = Names::of(&program, &parameter_names(document), &mut Namer::new(index), index);
-    // link and emit
-    emit::material(&program, document, methods, index, &names)
+    let program = lower_material(&material.types, methods, fold)?;
+    let alone = material.alone(program)?;
+    alone.shader(&material, methods, Product::Surface)
+}
+
+/// The height of a material that displaces: functions of a `Context`, as [`material()`] is one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Height {
+    /// `fn height(context: Context) -> f32` as the vertex stage computes it: the length by which a vertex moves along its
+    /// normal, in the unit of the position.
+    pub vertex: Shader,
+    /// `fn height_change(context: Context) -> vec2f` as the fragment stage computes it: the derivatives of the height along x and
+    /// y. The displaced surface's normal is made of them, and is what the sockets `normal` and `coat_normal` see as `world_normal`.
+    /// None where the height is the same everywhere, or the method of `height_normals` keeps the old normals.
+    pub change: Option<Shader>,
+}
+
+/// The height alone, without which a displaced surface is not known; none where it is 0. Numbers are folded as in
+/// [`Fold::Export`].
+///
+/// # Errors
+/// As for [`shader()`].
+pub fn height(document: &Document, library: &Library, methods: &Methods) -> Result<Option<Height>, CodegenError> {
+    let sound = Sound::new(document, library)?;
+    let material = sound.material()?;
+    let of = |stage| -> Result<_, CodegenError> {
+        lower_height(&material.types, methods, stage)?.map(|program| material.alone(program)).transpose()
+    };
+    let Some(vertex) = of(StageKind::Vertex)? else { return Ok(None) };
+    let arena = &vertex.program.vertex.arena;
+    let constant = vertex.program.vertex.root("height").and_then(|id| arena.as_literal(id));
+    if constant.is_some_and(|height| height.is_all(0.0)) {
+        return Ok(None);
+    }
+    let varies = arena.exprs.iter().any(|entry| matches!(entry.expr, Expr::Context(_) | Expr::Frame(_)));
+    let bends = varies && !methods.is("height_normals", "report");
+    let change = if bends { of(StageKind::Fragment)? } else { None };
+    Ok(Some(Height {
+        vertex: vertex.shader(&material, methods, Product::Height)?,
+        change: change.map(|change| change.shader(&material, methods, Product::HeightChange)).transpose()?,
+    }))
+}
+
+/// The program of one function, before its text is written.
+struct Alone<'s> {
+    program: Program<'s>,
+    names: Names,
+}
+
+impl<'s> Material<'s> {
+    /// All passes up to the text, of a program of one stage.
+    fn alone(&self, mut program: Program<'s>) -> Result<Alone<'s>, CodegenError> {
+        let Material { document, library, index, .. } = self;
+        // fold constants
+        let faults = fold::fold(&mut program, index);
+        no_faults(document, library, &program, &faults)?;
+        // drop unused
+        drop_unused(&mut program);
+        // share common subexpressions
+        share(&mut program);
+        // name
+        let names = Names::of(&program, &parameter_names(document), &mut Namer::new(index), index);
+        Ok(Alone { program, names })
+    }
+}
+
+impl Alone<'_> {
+    /// Links and emits.
+    fn shader(&self, material: &Material<'_>, methods: &Methods, product: Product) -> Result<Shader, CodegenError> {
+        emit::material(&self.program, product, material.document, methods, material.index, &self.names)
+    }
 }
 
 fn no_errors(problems: Vec<Problem>) -> Result<(), CodegenError> {

@@ -47,6 +47,8 @@ pub(crate) struct Body<'a> {
     pub(crate) material: usize,
     /// None where it is the sphere that the built-in mesh stands for.
     pub(crate) mesh: Option<Cow<'a, Mesh>>,
+    /// Its vertices in world space, where its material displaces them.
+    pub(crate) moved: Option<Vec<DVec3>>,
     /// Whether rays that meet its back go on.
     pub(crate) culled: bool,
     pub(crate) object: Object,
@@ -98,12 +100,25 @@ pub(crate) struct Detail {
     pub(crate) colors: bool,
 }
 
+impl Detail {
+    /// What the one or the other asks for.
+    pub(crate) fn and(self, other: Detail) -> Detail {
+        Detail {
+            places: self.places || other.places,
+            tangents: self.tangents || other.tangents,
+            colors: self.colors || other.colors,
+        }
+    }
+}
+
 /// What is known of a point of a surface.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Point {
     /// Index of what it lies on.
     pub(crate) body: u32,
     pub(crate) position: DVec3,
+    /// The same before displacement.
+    pub(crate) surface_position: DVec3,
     pub(crate) object_position: DVec3,
     /// Unit, of the face, outward.
     pub(crate) geometric_normal: DVec3,
@@ -146,8 +161,10 @@ impl<'a> Geometry<'a> {
                 });
                 continue;
             };
-            let place =
-                |i: u32| world_from_object.transform_point3(DVec3::from(mesh.positions[i as usize].map(f64::from)));
+            let place = |i: u32| match &body.moved {
+                Some(moved) => moved[i as usize],
+                None => world_from_object.transform_point3(DVec3::from(mesh.positions[i as usize].map(f64::from))),
+            };
             for corners in mesh.indices.chunks_exact(3) {
                 // A mirror turns the order of the corners over.
                 let vertices = if handedness < 0.0 {
@@ -339,11 +356,15 @@ impl<'a> Geometry<'a> {
         let mut point = Point {
             body: triangle.body,
             position,
+            surface_position: position,
             geometric_normal,
             normal: normal.try_normalize().unwrap_or(geometric_normal),
             view_dir,
             ..Point::default()
         };
+        if body.moved.is_some() {
+            point.surface_position = transform.world_from_object.transform_point3(vector(&mesh.positions));
+        }
         if detail.places {
             let pair = |all: &[[f32; 2]]| -> DVec2 {
                 vertices.iter().zip(weights).map(|(i, w)| w * DVec2::from(all[*i].map(f64::from))).sum()
@@ -383,7 +404,15 @@ impl<'a> Geometry<'a> {
         let local = sphere.object_from_world.transform_point3(position).normalize_or(DVec3::Y);
         let normal = (transform.normal_from_object * local).normalize_or(local);
         let body = sphere.body;
-        let mut point = Point { body, position, geometric_normal: normal, normal, view_dir, ..Point::default() };
+        let mut point = Point {
+            body,
+            position,
+            surface_position: position,
+            geometric_normal: normal,
+            normal,
+            view_dir,
+            ..Point::default()
+        };
         if detail.places {
             point.object_position = local;
         }

@@ -3,19 +3,21 @@
 //!
 //! The renderer evaluates a material's own `material(context) -> Surface` by the interpreter in f64, reflects by the lobes of
 //! `halfvector-brdf` in f64, traces shadows, and integrates the environment itself: no prefiltered levels, no split sum, no
-//! fitted albedos. Every pixel comes with its standard error.
+//! fitted albedos. Meshes are displaced vertex by vertex, as the shaders do it. Every pixel comes with its standard error.
 //!
-//! What it does not do: displacement ([`Reference::notes`] tells of it), and light inside of bodies: what enters a transmitting
-//! surface is refracted once, or passes a thin wall, and sees the environment, as the shaders have it.
+//! What it does not do: light inside of bodies. What enters a transmitting surface is refracted once, or passes a thin wall,
+//! and sees the environment, as the shaders have it.
 
 mod albedo;
 mod bsdf;
 mod camera;
 mod directions;
+mod displacement;
 mod elementary;
 mod environment;
 mod error;
 mod film;
+mod function;
 mod geometry;
 mod light;
 mod material;

@@ -1,23 +1,19 @@
 //! Materials as the reference evaluates them: the document's own `material(context) -> Surface`, run in f64 for many
-//! points at once.
+//! points at once, and the height by which it is displaced.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{DVec2, DVec3, DVec4};
-use halfvector_codegen::input_value;
-use halfvector_codegen::reflection::{Resource, SamplerSource, TextureSource, UniformSource, UniformType};
 use halfvector_graph::document::SurfaceSettings;
-use halfvector_graph::library::{CAPABILITIES, Library};
-use halfvector_graph::method::Methods;
-use halfvector_interp::{
-    Column, Derivatives, Entry, Limits, Machine, OutputColumn, Outputs, Program, Resources, Texture,
-};
-use halfvector_scene::{Scene, SceneMaterial, View};
+use halfvector_graph::library::Library;
+use halfvector_maps::height::normal_from_height;
+use halfvector_scene::{Scene, SceneMaterial};
 
 use crate::ReferenceError;
+use crate::function::{Frames, Function, Runner, Steps, component};
 use crate::geometry::{Detail, Point};
-use crate::texture::{Textures, sampler};
+use crate::texture::Textures;
 
 /// The surface at one point, as the surface node gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,100 +100,47 @@ impl Surface {
             thin_film_ior: one(),
         }
     }
-}
 
-/// Something of a point that a material asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Context {
-    Uv0,
-    Uv1,
-    VertexColor,
-    WorldPosition,
-    ObjectPosition,
-    WorldNormal,
-    WorldTangent,
-    ViewDir,
-    Time,
-    WorldFromObject,
-    ObjectFromWorld,
-    ViewFromWorld,
-}
-
-impl Context {
-    fn from_name(name: &str) -> Option<Context> {
-        Some(match name {
-            "uv0" => Context::Uv0,
-            "uv1" => Context::Uv1,
-            "vertex_color" => Context::VertexColor,
-            "world_position" => Context::WorldPosition,
-            "object_position" => Context::ObjectPosition,
-            "world_normal" => Context::WorldNormal,
-            "world_tangent" => Context::WorldTangent,
-            "view_dir" => Context::ViewDir,
-            "time" => Context::Time,
-            "world_from_object" => Context::WorldFromObject,
-            "object_from_world" => Context::ObjectFromWorld,
-            "view_from_world" => Context::ViewFromWorld,
-            _ => return None,
-        })
-    }
-
-    fn of(self, point: &Point, component: usize, frames: &Frames) -> f64 {
-        let object = || frames.objects.get(point.body as usize).unwrap_or(&frames.view);
-        match self {
-            Context::WorldFromObject => object().0[component],
-            Context::ObjectFromWorld => object().1[component],
-            Context::ViewFromWorld => frames.view.0[component],
-            Context::Uv0 => point.uv0[component],
-            Context::Uv1 => point.uv1[component],
-            Context::VertexColor => point.color[component],
-            Context::WorldPosition => point.position[component],
-            Context::ObjectPosition => point.object_position[component],
-            Context::WorldNormal => point.normal[component],
-            Context::WorldTangent => point.tangent[component],
-            Context::ViewDir => point.view_dir[component],
-            Context::Time => 0.0,
-        }
-    }
-}
-
-/// A transform and the way back, column by column.
-type Frame = ([f64; 16], [f64; 16]);
-
-/// The transforms between spaces.
-struct Frames {
-    /// World from object space, of each object of the scene.
-    objects: Vec<Frame>,
-    /// View from world space.
-    view: Frame,
-}
-
-impl Frames {
-    fn new(scene: &Scene) -> Frames {
-        let numbers = |m: glam::Mat4| m.as_dmat4().to_cols_array();
-        let of = |object: &halfvector_scene::Object| {
-            (numbers(object.world_from_object), numbers(object.object_from_world()))
-        };
-        let view = View::new(&scene.camera, 1.0, 1.0).view_from_world();
-        Frames { objects: scene.objects.iter().map(of).collect(), view: (numbers(view), numbers(view.inverse())) }
+    fn is_finite(&self) -> bool {
+        let vectors =
+            [self.base_color, self.normal, self.emission, self.coat_color, self.coat_normal, self.sheen_color];
+        let numbers = [
+            self.metallic,
+            self.perceptual_roughness,
+            self.ior,
+            self.specular,
+            self.occlusion,
+            self.opacity,
+            self.coat_weight,
+            self.coat_roughness,
+            self.coat_ior,
+            self.sheen_roughness,
+            self.transmission_weight,
+            self.anisotropy,
+            self.anisotropy_rotation,
+            self.thin_film_weight,
+            self.thin_film_thickness,
+            self.thin_film_ior,
+        ];
+        vectors.as_flattened().iter().chain(&numbers).all(|x| x.is_finite())
     }
 }
 
 /// A material ready to be evaluated.
 pub(crate) struct Material {
-    program: Program,
-    frames: Frames,
-    /// What each input is.
-    inputs: Vec<(Context, usize)>,
-    /// Where each output goes in the numbers of a [`Surface`].
+    surface: Function,
+    /// Where each output of it goes in the numbers of a [`Surface`].
     outputs: Vec<Option<usize>>,
-    buffers: Vec<((u32, u32), Vec<u8>)>,
-    textures: Vec<((u32, u32), Arc<Texture>)>,
-    samplers: Vec<((u32, u32), halfvector_interp::Sampler)>,
-    /// Whether it takes derivatives of its own, beside those that choose a texture's level.
+    /// How far a vertex is moved along its normal; none where the surface is not displaced.
+    pub(crate) height: Option<Function>,
+    /// The derivatives of the height, where they bend the normals.
+    change: Option<Function>,
+    /// Whether its own text takes derivatives, beside those that choose a texture's level.
     pub(crate) derives: bool,
     /// Points at which it was evaluated, and those of them at which it gave no finite surface.
     looked_at: [AtomicU64; 2],
+    /// Vertices that it was to move, and those of them whose height is no length.
+    pub(crate) moved: [u64; 2],
     /// What it asks of points; tangents where it is brushed along them, too.
     pub(crate) detail: Detail,
     /// What opacity does, and whether both sides are seen.
@@ -205,45 +148,29 @@ pub(crate) struct Material {
 }
 
 impl Material {
-    /// Compiles a material of a scene. `notes` takes what of it is not modelled.
+    /// Compiles a material of a scene.
     pub(crate) fn new(
         scene: &Scene,
         material: &SceneMaterial,
-        methods: &Methods,
+        frames: &Arc<Frames>,
         textures: &mut Textures,
-        notes: &mut Vec<String>,
     ) -> Result<Material, ReferenceError> {
-        let document = &material.document;
-        let wrong = |why: String| ReferenceError::Material { material: document.name.clone(), why };
-        let shader = halfvector_codegen::material(document, Library::standard(), methods)
-            .map_err(|error| wrong(error.to_string()))?;
-        let module = naga::front::wgsl::parse_str(&shader.wgsl).map_err(|error| wrong(error.to_string()))?;
-        let info = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), CAPABILITIES)
-            .validate(&module)
-            .map_err(|error| wrong(error.as_inner().to_string()))?;
-        let program =
-            Program::compile(&module, &info, Entry::Function("material")).map_err(|error| wrong(error.to_string()))?;
-
-        let component = |part: Option<&str>| match part {
-            None | Some("x") => Some(0),
-            Some("y") => Some(1),
-            Some("z") => Some(2),
-            Some("w") => Some(3),
-            Some(_) => None,
+        let (document, library, methods) = (&material.document, Library::standard(), &scene.methods);
+        let wrong = |error: halfvector_codegen::CodegenError| ReferenceError::Material {
+            material: document.name.clone(),
+            why: error.to_string(),
         };
-        let mut inputs = Vec::new();
-        for slot in program.inputs() {
-            let mut path = slot.name.split('.').skip(1);
-            let context = path.next().and_then(Context::from_name);
-            // Of a matrix the column comes first.
-            let place = match (path.next(), path.next()) {
-                (Some(column), Some(row)) => column.parse::<usize>().ok().zip(component(Some(row))),
-                (part, None) => component(part).map(|component| (0, component)),
-                _ => None,
-            };
-            match (context, place) {
-                (Some(context), Some((column, row))) => inputs.push((context, 4 * column + row)),
-                _ => return Err(wrong(format!("it asks for `{}`, which the reference does not know", slot.name))),
+        let mut function = |shader: &halfvector_codegen::Shader, name: &str| {
+            Function::new(scene, material, shader, name, frames, textures)
+        };
+        let surface = halfvector_codegen::material(document, library, methods).map_err(wrong)?;
+        let surface = function(&surface, "material")?;
+        let (mut height, mut change) = (None, None);
+        if let Some(found) = halfvector_codegen::height(document, library, methods).map_err(wrong)? {
+            height = Some(function(&found.vertex, "height")?);
+            // Where the surface's normals are none of the mesh's there is nothing to bend.
+            if let Some(found) = found.change.filter(|_| surface.reads_normal()) {
+                change = Some(function(&found, "height_change")?);
             }
         }
         let place = |name: &str| {
@@ -252,65 +179,26 @@ impl Material {
             let before = MEMBERS.iter().position(|(known, _)| *known == member)?;
             Some(MEMBERS[..before].iter().map(|(_, count)| count).sum::<usize>() + component)
         };
-        let outputs: Vec<Option<usize>> = program.outputs().iter().map(|slot| place(&slot.name)).collect();
-
         let mut made = Material {
-            frames: Frames::new(scene),
-            inputs,
-            outputs,
-            buffers: Vec::new(),
-            textures: Vec::new(),
-            samplers: Vec::new(),
-            // The text of comments may say so too: that costs time, no more.
-            derives: ["dpdx", "dpdy", "fwidth"].iter().any(|name| shader.wgsl.contains(name)),
+            outputs: surface.outputs().map(place).collect(),
+            derives: surface.derives,
             looked_at: Default::default(),
-            detail: Detail::default(),
+            moved: [0; 2],
+            detail: surface.detail,
             settings: document.surface,
-            program,
+            surface,
+            height,
+            change,
         };
-        for (context, _) in &made.inputs {
-            made.detail.places |= matches!(context, Context::Uv0 | Context::Uv1 | Context::ObjectPosition);
-            made.detail.tangents |= *context == Context::WorldTangent;
-            made.detail.colors |= *context == Context::VertexColor;
+        if let Some(change) = &made.change {
+            made.detail = made.detail.and(change.detail);
         }
-        for binding in &shader.reflection.bindings {
-            let at = (binding.group, binding.binding);
-            match &binding.resource {
-                Resource::Uniform(block) => {
-                    let fill = |source: &UniformSource, numbers: &mut Vec<f64>| {
-                        let member = block.members.iter().find(|member| member.source == *source);
-                        match (source, member.map(|member| member.ty)) {
-                            (UniformSource::Input(socket), Some(UniformType::Value(ty))) => {
-                                let value = input_value(document, Library::standard(), socket, ty);
-                                numbers.extend(value.unwrap_or_default());
-                            }
-                            (UniformSource::Time, _) => numbers.push(0.0),
-                            _ => {}
-                        }
-                    };
-                    made.buffers.push((at, block.pack(fill).map_err(|error| wrong(error.to_string()))?));
-                }
-                Resource::Texture(TextureSource::Image(image)) => {
-                    let texture = textures.get(scene, material, image)?;
-                    made.textures.push((at, texture));
-                }
-                Resource::Texture(_) => {}
-                Resource::Sampler(SamplerSource::Image { wrap_u, wrap_v, filter }) => {
-                    made.samplers.push((at, sampler(*wrap_u, *wrap_v, *filter)));
-                }
-                Resource::Sampler(SamplerSource::LinearClamp) => {}
-            }
-        }
-        let moved = made.look_at_samples(&document.name)?;
-        if moved {
-            notes.push(format!("the reference leaves out `height` of the material `{}`", document.name));
-        }
+        made.detail.tangents |= made.is_brushed()?;
         Ok(made)
     }
 
-    /// Evaluates some points: a brushed surface needs tangents. True where the surface is displaced, which the reference
-    /// leaves out.
-    fn look_at_samples(&mut self, name: &str) -> Result<bool, ReferenceError> {
+    /// Evaluates some points: a brushed surface needs tangents.
+    fn is_brushed(&self) -> Result<bool, ReferenceError> {
         let points: Vec<Point> = (0..64)
             .map(|i| {
                 let (u, v) = (f64::from(i % 8) / 8.0 + 0.03, f64::from(i / 8) / 8.0 + 0.05);
@@ -318,6 +206,7 @@ impl Material {
                 Point {
                     body: 0,
                     position: place,
+                    surface_position: place,
                     object_position: place,
                     uv0: DVec2::new(u, v),
                     uv1: DVec2::new(u, v),
@@ -329,16 +218,16 @@ impl Material {
                 }
             })
             .collect();
-        let mut evaluator = self.evaluator(name)?;
-        evaluator.run(&points, None)?;
-        let is_set = |member: &str| {
-            let slot = self.program.outputs().iter().position(|slot| slot.name == member);
-            let column = slot.map(|slot| &evaluator.results.columns[slot]);
-            matches!(column, Some(OutputColumn::Float(numbers)) if numbers.iter().any(|x| *x != 0.0))
-        };
-        let (brushed, moved) = (is_set("anisotropy"), is_set("height"));
-        self.detail.tangents |= brushed;
-        Ok(moved)
+        let mut runner = self.surface.runner()?;
+        runner.run(&points, None)?;
+        let slot = self.surface.outputs().position(|name| name == "anisotropy");
+        let column = slot.and_then(|slot| runner.result(slot));
+        Ok(column.is_some_and(|numbers| numbers.iter().any(|x| *x != 0.0)))
+    }
+
+    /// Whether [`Evaluator::surfaces`] wants the points beside the ones that are shaded.
+    pub(crate) fn wants_steps(&self) -> bool {
+        self.derives || self.change.is_some()
     }
 
     /// The share of the points so far at which it gave no finite surface.
@@ -347,47 +236,29 @@ impl Material {
         if not_finite > 0.0 { not_finite / all } else { 0.0 }
     }
 
-    /// The machine that evaluates it: one for each thread.
-    pub(crate) fn evaluator(&self, name: &str) -> Result<Evaluator<'_>, ReferenceError> {
-        let wrong = |why: String| ReferenceError::Material { material: name.to_owned(), why };
-        let mut resources = Resources::default();
-        for ((group, binding), bytes) in &self.buffers {
-            resources = resources.buffer(*group, *binding, bytes);
-        }
-        for ((group, binding), texture) in &self.textures {
-            resources = resources.texture(*group, *binding, texture);
-        }
-        for ((group, binding), sampler) in &self.samplers {
-            resources = resources.sampler(*group, *binding, *sampler);
-        }
-        let machine = self.program.machine(Limits::default()).map_err(|error| wrong(error.to_string()))?;
+    /// The machines that evaluate it: one for each thread.
+    pub(crate) fn evaluator(&self) -> Result<Evaluator<'_>, ReferenceError> {
         Ok(Evaluator {
             material: self,
-            name: name.to_owned(),
-            machine,
-            resources,
-            columns: Default::default(),
-            results: Outputs::default(),
+            surface: self.surface.runner()?,
+            change: self.change.as_ref().map(Function::runner).transpose()?,
+            normals: Vec::new(),
         })
     }
 }
 
-/// A material and the memory to run it.
+/// A material and the memory to evaluate it.
 pub(crate) struct Evaluator<'m> {
     material: &'m Material,
-    name: String,
-    machine: Machine<'m, f64>,
-    resources: Resources<'m>,
-    /// Inputs, and their changes along x and y.
-    columns: [Vec<Vec<f64>>; 3],
-    results: Outputs<f64>,
+    surface: Runner<'m>,
+    change: Option<Runner<'m>>,
+    /// Of the displaced surface, by point.
+    normals: Vec<DVec3>,
 }
 
-/// Points, and the same points one step along x and along y of the picture.
-pub(crate) type Steps<'a> = [&'a [Point]; 2];
-
 impl Evaluator<'_> {
-    /// The surface at each point. `steps` are needed where the material [derives](Material::derives).
+    /// The surface at each point. `steps` are needed where the material [derives](Material::derives); without them normals
+    /// are not bent.
     pub(crate) fn surfaces(
         &mut self,
         points: &[Point],
@@ -398,58 +269,52 @@ impl Evaluator<'_> {
         if points.is_empty() {
             return Ok(());
         }
-        self.run(points, steps)?;
-        let columns: Vec<(usize, &[f64])> = self
-            .results
-            .columns
-            .iter()
-            .zip(&self.material.outputs)
-            .filter_map(|(column, place)| match (column, place) {
-                (OutputColumn::Float(numbers), Some(place)) => Some((*place, numbers.as_slice())),
-                _ => None,
-            })
-            .collect();
-        let mut numbers = [0.0; NUMBERS];
-        let mut strange = 0;
-        surfaces.extend((0..points.len()).map(|i| {
-            for (place, column) in &columns {
-                numbers[*place] = column[i];
-            }
-            strange += u64::from(!numbers.iter().all(|x| x.is_finite()));
-            Surface::from_numbers(&numbers)
-        }));
+        self.surface.run(points, steps)?;
+        self.read(points.len(), |_, surface| surfaces.push(surface));
+        if self.bend(points, steps)? {
+            self.surface.run_with_normals(&self.normals)?;
+            self.read(points.len(), |i, bent| {
+                (surfaces[i].normal, surfaces[i].coat_normal) = (bent.normal, bent.coat_normal);
+            });
+        }
+        let strange = surfaces.iter().filter(|surface| !surface.is_finite()).count();
         let [all, not_finite] = &self.material.looked_at;
         all.fetch_add(points.len() as u64, Ordering::Relaxed);
-        not_finite.fetch_add(strange, Ordering::Relaxed);
+        not_finite.fetch_add(strange as u64, Ordering::Relaxed);
         Ok(())
     }
 
-    fn run(&mut self, points: &[Point], steps: Option<Steps<'_>>) -> Result<(), ReferenceError> {
-        let (inputs, frames) = (&self.material.inputs, &self.material.frames);
-        let sets = [Some(points), steps.map(|s| s[0]), steps.map(|s| s[1])];
-        for (k, (columns, set)) in self.columns.iter_mut().zip(sets).enumerate() {
-            columns.resize(inputs.len(), Vec::new());
-            for (column, (context, component)) in columns.iter_mut().zip(inputs) {
-                column.clear();
-                let Some(set) = set else { continue };
-                column.extend(set.iter().zip(points).map(|(point, base)| {
-                    let x = context.of(point, *component, frames);
-                    if k == 0 {
-                        return x;
-                    }
-                    let change = x - context.of(base, *component, frames);
-                    // The seam of a texture is no step.
-                    if matches!(context, Context::Uv0 | Context::Uv1) { change - change.round() } else { change }
-                }));
+    /// Gives each surface of the last run.
+    fn read(&self, count: usize, mut take: impl FnMut(usize, Surface)) {
+        let places = self.material.outputs.iter().enumerate();
+        let columns: Vec<(usize, &[f64])> =
+            places.filter_map(|(output, place)| place.zip(self.surface.result(output))).collect();
+        let mut numbers = [0.0; NUMBERS];
+        for i in 0..count {
+            for (place, column) in &columns {
+                numbers[*place] = column[i];
             }
+            take(i, Surface::from_numbers(&numbers));
         }
-        let columns = |set: usize| -> Vec<Column<'_, f64>> {
-            self.columns[set].iter().map(|column| Column::Float(column)).collect()
-        };
-        let (values, ddx, ddy) = (columns(0), columns(1), columns(2));
-        let derivatives = if steps.is_some() { Derivatives::Given { ddx: &ddx, ddy: &ddy } } else { Derivatives::Zero };
-        self.machine
-            .run(&values, points.len(), &mut self.results, &self.resources, derivatives)
-            .map_err(|error| ReferenceError::Material { material: self.name.clone(), why: error.to_string() })
+    }
+
+    /// Finds the displaced surface's normals, if the material has such.
+    ///
+    /// The shaders derive them from the position before displacement, which is exact where the surface is flat. Here it is the
+    /// displaced one, p + h n, whose part across the normal n changes by h n' more: so it is exact where it is curved, too.
+    fn bend(&mut self, points: &[Point], steps: Option<Steps<'_>>) -> Result<bool, ReferenceError> {
+        let (Some(change), Some([right, down])) = (&mut self.change, steps) else { return Ok(false) };
+        change.run(points, steps)?;
+        let (Some(along_x), Some(along_y)) = (change.result(0), change.result(1)) else { return Ok(false) };
+        self.normals.clear();
+        self.normals.extend(points.iter().enumerate().map(|(i, point)| {
+            // What is no number stays none, and is told.
+            if !(along_x[i].is_finite() && along_y[i].is_finite()) {
+                return DVec3::NAN;
+            }
+            let [ddx, ddy] = [right, down].map(|beside| (beside[i].position - point.position).to_array());
+            normal_from_height(ddx, ddy, point.normal.to_array(), along_x[i], along_y[i]).into()
+        }));
+        Ok(true)
     }
 }

@@ -5,6 +5,7 @@
 //! looked at one by one. Nothing is clamped.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use halfvector_graph::document::AlphaMode;
@@ -14,8 +15,10 @@ use rayon::prelude::*;
 
 use crate::ReferenceError;
 use crate::camera::Pinhole;
+use crate::displacement;
 use crate::environment::{Environment, EnvironmentFilter};
 use crate::film::{Picture, Pixel};
+use crate::function::Frames;
 use crate::geometry::{Body, Geometry, Hit};
 use crate::light::Lights;
 use crate::material::Material;
@@ -75,7 +78,6 @@ pub struct Reference<'a> {
     pub(crate) options: RenderOptions,
     /// Whether no surface lets anything through.
     pub(crate) is_opaque: bool,
-    notes: Vec<String>,
     film: Vec<Pixel>,
     samples: u64,
 }
@@ -92,7 +94,7 @@ impl std::fmt::Debug for Reference<'_> {
 impl<'a> Reference<'a> {
     /// Makes a scene ready. `environment` is the scene's, loaded; it may be absent when the scene has none.
     ///
-    /// The built-in sphere is rendered as the sphere that its triangles stand for.
+    /// The built-in sphere is rendered as the sphere that its triangles stand for, if no height moves them.
     ///
     /// # Errors
     /// When a material is wrong or asks for a method that has no truth here, or the size is.
@@ -106,7 +108,8 @@ impl<'a> Reference<'a> {
             return Err(ReferenceError::PictureSize { width, height });
         }
         check_methods(scene)?;
-        let mut notes = Vec::new();
+        let frames = Arc::new(Frames::new(scene));
+        let camera = scene.camera.position.as_dvec3();
         let mut textures = Textures::default();
         let mut materials: Vec<Option<Material>> = scene.materials.iter().map(|_| None).collect();
         let mut bodies = Vec::new();
@@ -120,20 +123,28 @@ impl<'a> Reference<'a> {
                 }
             }
             let wanted = &scene.materials[object.material];
-            if materials[object.material].is_none() {
-                materials[object.material] =
-                    Some(Material::new(scene, wanted, &scene.methods, &mut textures, &mut notes)?);
-            }
+            let material = match &mut materials[object.material] {
+                Some(material) => material,
+                none => none.insert(Material::new(scene, wanted, &frames, &mut textures)?),
+            };
             let mesh: &Mesh = &scene.meshes[object.mesh];
+            let mut moved = None;
+            if let Some(height) = &material.height {
+                let found = displacement::moved(height, number as u32, object, mesh, camera)?;
+                material.moved[0] += mesh.positions.len() as u64;
+                material.moved[1] += found.not_finite;
+                moved = found.positions;
+            }
             bodies.push(Body {
                 material: object.material,
-                mesh: (!is_sphere(mesh)).then_some(Cow::Borrowed(mesh)),
+                mesh: (moved.is_some() || !is_sphere(mesh)).then_some(Cow::Borrowed(mesh)),
+                moved,
                 culled: !wanted.document.surface.double_sided,
                 object: object.clone(),
             });
         }
         let is_opaque = materials.iter().flatten().all(|material| material.settings.alpha_mode == AlphaMode::Opaque);
-        let reach = scene.camera.position.as_dvec3().abs().max_element();
+        let reach = camera.abs().max_element();
         let count = width as usize * height as usize;
         Ok(Reference {
             geometry: Geometry::new(bodies, reach),
@@ -147,18 +158,13 @@ impl<'a> Reference<'a> {
             background: scene.background,
             options,
             is_opaque,
-            notes,
             film: vec![Pixel::default(); count],
             samples: 0,
         })
     }
 
-    /// What of the scene is not rendered, in the user's words.
-    pub fn notes(&self) -> &[String] {
-        &self.notes
-    }
-
-    /// What of the paths so far had no finite light, in the user's words. Such paths count as black.
+    /// What of the scene is no finite number, in the user's words: heights of vertices, which stay where they are, and what the
+    /// paths so far have met. Such paths count as black.
     pub fn faults(&self) -> Vec<String> {
         let shares = self.materials.iter().zip(&self.names).filter_map(|(m, name)| Some((m.as_ref()?, name)));
         let strange = shares.map(|(m, name)| (m.share_not_finite(), name)).filter(|(share, _)| *share > 0.0);
@@ -169,7 +175,15 @@ impl<'a> Reference<'a> {
                 (100.0 * share).max(0.01)
             )
         });
-        told.collect()
+        let unmoved = self.materials.iter().zip(&self.names).filter_map(|(m, name)| Some((m.as_ref()?.moved, name)));
+        let stay = unmoved.filter(|([_, strange], _)| *strange > 0).map(|([all, strange], name)| {
+            format!(
+                "the height of the material `{name}` is NaN, infinite or beyond all measure at {:.2} % of the vertices: they \
+                 stay where they are here, and are anywhere elsewhere; `halfvector check --stability` finds the node",
+                (100.0 * strange as f64 / all as f64).max(0.01)
+            )
+        });
+        stay.chain(told).collect()
     }
 
     /// Traces so many more paths for each pixel, on all cores. `progress` is told the share that is done, 0 to 1, by

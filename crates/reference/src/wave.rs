@@ -78,8 +78,7 @@ impl<'r> Wave<'r> {
         let evaluators = reference
             .materials
             .iter()
-            .zip(&reference.names)
-            .map(|(material, name)| material.as_ref().map(|m| m.evaluator(name)).transpose())
+            .map(|material| material.as_ref().map(Material::evaluator).transpose())
             .collect::<Result<_, _>>()?;
         Ok(Wave {
             reference,
@@ -178,7 +177,7 @@ impl<'r> Wave<'r> {
             if let (Some(material), Some(evaluator)) = (&reference.materials[index], &mut self.evaluators[index]) {
                 place(reference, material, &self.paths, &hits, &mut self.points);
                 let [points, right, down] = &self.points;
-                let steps = material.derives.then_some([right.as_slice(), down.as_slice()]);
+                let steps = material.wants_steps().then_some([right.as_slice(), down.as_slice()]);
                 evaluator.surfaces(points, steps, &mut self.surfaces)?;
                 self.draw(&hits);
                 let mut veil = Veil { reference, evaluators: &mut self.evaluators, surfaces: &mut self.behind };
@@ -264,7 +263,7 @@ fn see_behind(
     }
 }
 
-/// The points that rays have met and, where the material takes derivatives, the points beside them.
+/// The points that rays have met and, where the material wants them, the points beside them.
 fn place(
     reference: &Reference<'_>,
     material: &Material,
@@ -278,7 +277,7 @@ fn place(
     middle.extend(hits.iter().map(|(number, hit)| geometry.point(&paths[*number as usize].ray, hit, material.detail)));
     for (axis, beside) in [&mut *right, &mut *down].into_iter().enumerate() {
         beside.clear();
-        if !material.derives {
+        if !material.wants_steps() {
             continue;
         }
         beside.extend(hits.iter().zip(middle.iter()).map(|((number, hit), point)| {

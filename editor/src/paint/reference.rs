@@ -76,7 +76,7 @@ pub(super) fn render(easels: &mut [Easel; 2], requests: &[Request], stale: &Stal
                         samples: found.samples,
                         share: if light > 0.0 { noise / light } else { 0.0 },
                         of_pixels: found.standard_error.into(),
-                        notes: reference.notes().into(),
+                        faults: reference.faults().into(),
                     }),
                 }),
             });

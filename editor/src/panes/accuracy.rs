@@ -21,8 +21,8 @@ pub(crate) struct Accuracy {
     rows: Vec<Row>,
     furnace: Option<(Box<Furnace>, egui::TextureHandle)>,
     failed: Option<String>,
-    /// What the reference leaves out.
-    notes: Vec<String>,
+    /// What of the material is no finite number, in words.
+    faults: Vec<String>,
     /// Of the document that was measured.
     revision: u64,
 }
@@ -41,7 +41,7 @@ impl Accuracy {
             rows: Vec::new(),
             furnace: None,
             failed: None,
-            notes: Vec::new(),
+            faults: Vec::new(),
             revision: 0,
         }
     }
@@ -86,8 +86,8 @@ impl Accuracy {
             if let Some(why) = &self.failed {
                 ui.colored_label(theme::ERROR, why);
             }
-            for note in &self.notes {
-                ui.colored_label(theme::WARNING, sentence(note));
+            for fault in &self.faults {
+                ui.colored_label(theme::WARNING, sentence(fault));
             }
             egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
                 ui.horizontal_top(|ui| {
@@ -104,7 +104,7 @@ impl Accuracy {
         self.failed = None;
         self.revision = session.revision();
         match what {
-            What::Errors => (self.rows, self.truth, self.notes) = (Vec::new(), None, Vec::new()),
+            What::Errors => (self.rows, self.truth, self.faults) = (Vec::new(), None, Vec::new()),
             What::Furnace => self.furnace = None,
         }
         self.doing = Some(("Starting".to_owned(), 0.0));
@@ -122,7 +122,7 @@ impl Accuracy {
             match told {
                 Told::Progress(doing, done) => self.doing = Some((doing, done)),
                 Told::Truth(noise, samples) => self.truth = Some((noise, samples)),
-                Told::Notes(notes) => self.notes = notes,
+                Told::Faults(faults) => self.faults = faults,
                 Told::Row(row) => self.rows.push(row),
                 Told::Furnace(furnace) => {
                     let options = egui::TextureOptions::LINEAR;

@@ -56,9 +56,9 @@ impl<'s> Studio<'s> {
         Ok(Studio { scene, reference, environment: bake(scene, &loaded), truth: None })
     }
 
-    /// What the reference leaves out.
-    pub(crate) fn notes(&self) -> &[String] {
-        self.reference.notes()
+    /// What of the material is no finite number.
+    pub(crate) fn faults(&self) -> Vec<String> {
+        self.reference.faults()
     }
 
     /// Brings the reference to so many paths for each pixel.
@@ -108,7 +108,8 @@ impl Lamp {
     }
 }
 
-/// The scene of both: nothing stands behind the sphere, and nothing is displaced, for the reference displaces nothing.
+/// The scene of both: nothing stands behind the sphere, and nothing is displaced. The edges of a displaced mesh fall between other
+/// samples here and there, which is no error of shading, and would hide what is.
 pub(crate) fn scene(mut scene: Scene, truth: &Methods) -> Scene {
     for material in &mut scene.materials {
         let graph = &mut material.document.graph;

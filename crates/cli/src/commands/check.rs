@@ -125,7 +125,9 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
             lines.extend(judged.iter().flat_map(Judged::lines));
             lines.extend(costed.iter().flat_map(cost_lines));
             if !unreadable && is_sound && costed.is_empty() {
-                lines.push("no problems".to_owned());
+                let all = lines.is_empty();
+                let text = if all { "no problems" } else { "no problems: edges are where a node jumps, and are none" };
+                lines.push(text.to_owned());
             }
             print(&lines.join("\n"))?;
         }

@@ -88,7 +88,7 @@ fn a_diffuse_model_is_kept_and_true() {
     assert!(at_most(&rough) > 0.12, "{rough} {own}");
 }
 
-/// The reference displaces nothing, so neither does the shader that is held against it.
+/// Errors are of shading: nothing is displaced for them, on either side.
 #[test]
 fn a_height_does_not_change_the_error() {
     let folder = Folder::new();

@@ -4,6 +4,7 @@ use halfvector_graph::document::Document;
 use halfvector_graph::method::TERMS;
 use halfvector_graph::needs::{Needs, ShaderOutput};
 
+use crate::emit::material::Product;
 use crate::emit::text::Text;
 use crate::names::comment;
 use crate::passes::plan::{Keep, Plan};
@@ -51,9 +52,16 @@ fn left_out(dropped: &[Dropped], text: &mut Text) {
     }
 }
 
-pub(crate) fn material_header(document: &Document, text: &mut Text) {
+pub(crate) fn material_header(document: &Document, product: Product, text: &mut Text) {
+    let serves = match product {
+        Product::Surface => "your own lights: `material` returns the surface, nothing is shaded here",
+        Product::Height => {
+            "your own displacement: `height` returns the length by which a vertex moves along its normal"
+        }
+        Product::HeightChange => "your own normals: `height_change` returns the derivatives of the height",
+    };
     paragraph("", &title(document), text);
-    paragraph("serves: ", "your own lights: `material` returns the surface, nothing is shaded here", text);
+    paragraph("serves: ", serves, text);
     text.line("");
 }
 

@@ -6,7 +6,7 @@ mod fragment;
 mod header;
 mod interface;
 mod lights;
-mod material;
+pub(crate) mod material;
 mod terms;
 pub(crate) mod text;
 mod value;
@@ -21,6 +21,7 @@ use halfvector_graph::needs::Needs;
 use crate::emit::expression::{Names, Uses};
 use crate::emit::fragment::FragmentParts;
 use crate::emit::interface::Interface;
+use crate::emit::material::Product;
 use crate::emit::text::{Origin, Text};
 use crate::ir::Program;
 use crate::link::{self, Index};
@@ -59,21 +60,22 @@ pub(crate) fn shader(
     Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: plan.dropped, dropped_nodes, methods })
 }
 
-/// The material alone: `material(context) -> Surface`.
+/// The material alone, or a part of it: one function of the context.
 pub(crate) fn material(
     program: &Program<'_>,
+    product: Product,
     document: &Document,
     methods: &Methods,
     index: &Index,
     names: &Names,
 ) -> Result<Shader, CodegenError> {
-    let (body, uses) = material::material(program, index, names)?;
+    let (body, uses) = material::material(program, product, index, names)?;
     let none = Uses::default();
     let interface = Interface { program, document, names, vertex: &none, fragment: &uses };
     let reflection = interface.material_reflection();
 
     let mut text = Text::default();
-    header::material_header(document, &mut text);
+    header::material_header(document, product, &mut text);
     interface::declarations(&reflection, &mut text);
     if !uses.contexts.is_empty() {
         text.line("struct Context {");

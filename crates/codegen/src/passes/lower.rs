@@ -312,6 +312,25 @@ pub(crate) fn lower_material<'a>(
     Ok(Program { nodes, inputs, images, fragment: stage, ..Program::default() })
 }
 
+/// The program of the height alone, as the root `height` of a stage; `None` where the surface has no such socket.
+pub(crate) fn lower_height<'a>(
+    types: &Types<'a>,
+    methods: &Methods,
+    stage: StageKind,
+) -> Result<Option<Program<'a>>, CodegenError> {
+    let mut table = Table::default();
+    let mut made = Stage::default();
+    let mut lowering = Lowering::new(types, methods, Fold::Export, stage);
+    let Some(height) = lowering.surface(&mut made.arena, &mut table, "height")? else { return Ok(None) };
+    made.roots.insert("height", height);
+    let Table { inputs, images, .. } = table;
+    let alone = Program { nodes: types.nodes.clone(), inputs, images, ..Program::default() };
+    Ok(Some(match stage {
+        StageKind::Vertex => Program { vertex: made, ..alone },
+        StageKind::Fragment => Program { fragment: made, ..alone },
+    }))
+}
+
 /// The displaced surface's normal, from screen-space derivatives of the position that is not displaced and of the
 /// height there.
 fn normal_from_height<'a>(arena: &mut Arena<'a>, height: Id) -> Id {

@@ -1,6 +1,7 @@
 //! What stands in which stage: height, opacity, sides, tangents, contexts.
 
-use halfvector_graph::document::AlphaMode;
+use halfvector_graph::document::{AlphaMode, Document};
+use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::{Needs, ShaderOutput, ToneMap};
 
@@ -13,7 +14,7 @@ fn part<'s>(shader: &'s Shader, entry: &str) -> &'s str {
     &shader.wgsl[start..start + end]
 }
 
-fn displaced() -> halfvector_graph::document::Document {
+fn displaced() -> Document {
     material(
         "",
         r#""relief": {"node": "textures/image", "values": {"image": {"file": "h.png", "color_space": "linear"}}},
@@ -45,6 +46,27 @@ fn a_constant_height_needs_no_derivatives() {
     assert!(part(&shader, "vs_main").contains("displaced(world_position, world_normal, 0.5)"));
     assert!(!shader.wgsl.contains("dpdx"));
     assert!(!exported(&material("", "", ""), &sun()).wgsl.contains("displaced("));
+}
+
+/// The height alone is that of the stages: no implicit derivative for the vertices, and its change for the normals.
+#[test]
+fn the_height_alone() {
+    let of = |document: &Document, chosen: &[(&str, &str)]| {
+        crate::height(document, Library::standard(), &methods(chosen)).expect("sound")
+    };
+    let found = of(&displaced(), &[]).expect("a height");
+    let change = found.change.expect("normals bend");
+    for shader in [&found.vertex, &change] {
+        crate::validate(shader).unwrap_or_else(|e| panic!("{e}\n{}", shader.wgsl));
+    }
+    let (vertex, change) = (&found.vertex.wgsl, &change.wgsl);
+    assert!(vertex.contains("fn height(context: Context) -> f32") && vertex.contains("node_textures_image_vertex("));
+    assert!(change.contains("fn height_change(context: Context) -> vec2f"), "{change}");
+    assert!(change.contains("return vec2f(dpdx(") && !change.contains("node_textures_image_vertex("), "{change}");
+    assert_eq!(of(&displaced(), &[("height_normals", "report")]).map(|height| height.change), Some(None));
+    // The same everywhere it bends nothing, and 0 is none.
+    assert_eq!(of(&material(r#""height": 0.5"#, "", ""), &[]).map(|height| height.change), Some(None));
+    assert_eq!(of(&material("", "", ""), &[]), None);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //!
 //! They compare few and coarse pixels; with `HALFVECTOR_REFERENCE_FULL=1` all of them, with many samples.
 
+mod displacement;
 mod furnace;
 mod ibl_tables;
 mod mitsuba;

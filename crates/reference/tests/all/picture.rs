@@ -96,17 +96,6 @@ fn the_sphere_stands_for_its_triangles() {
     assert!(d.mean_relative.abs() < 1e-3 && d.rmse < 0.02, "{d:?}");
 }
 
-#[test]
-fn what_is_left_out_is_noted() {
-    let notes = |values: &[(&str, halfvector_graph::value::Value)]| {
-        let scene = scene(BuiltinMesh::Sphere, values, &[]);
-        let options = RenderOptions { width: 4, height: 4, ..RenderOptions::default() };
-        Reference::new(&scene, Some(&white()), options).expect("a sound scene").notes().join("; ")
-    };
-    assert_eq!(notes(&[("transmission_weight", number(1.0)), ("anisotropy", number(0.5))]), "");
-    assert!(notes(&[("height", number(0.1))]).contains("`height`"));
-}
-
 /// A material that is no number somewhere is told by name and share; a sound one is not.
 #[test]
 fn what_is_not_finite_is_told() {

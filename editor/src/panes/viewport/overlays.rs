@@ -34,9 +34,9 @@ impl Viewport {
         lines.extend(faults.map(|fault| (fault.text().to_owned(), theme::ERROR)));
         let count = if self.compare.is_on() { 2 } else { 1 };
         let noises = self.sides[..count].iter().filter_map(|side| side.shown.as_ref()?.noise.as_ref());
-        let mut notes: Vec<&String> = noises.flat_map(|noise| noise.notes.iter()).collect();
-        notes.dedup();
-        lines.extend(notes.into_iter().map(|note| (sentence(note), theme::WARNING)));
+        let mut strange: Vec<&String> = noises.flat_map(|noise| noise.faults.iter()).collect();
+        strange.dedup();
+        lines.extend(strange.into_iter().map(|fault| (sentence(fault), theme::WARNING)));
         let place = rect.left_top() + egui::vec2(8.0, 8.0);
         let builder = egui::UiBuilder::new()
             .max_rect(egui::Rect::from_min_size(place, egui::vec2((rect.width() - 16.0).max(40.0), rect.height())));
