@@ -25,6 +25,7 @@ use crate::panes::{
     accuracy::Accuracy, canvas::Canvas, code::Code, cost::Cost, functions::Functions, inspector::Inspector,
     library::LibraryPane, problems::Problems, viewport::Viewport,
 };
+use crate::pictures::Watch;
 use crate::session::Session;
 use crate::stage::Stage;
 use crate::thumbnails::Thumbnails;
@@ -105,6 +106,7 @@ struct Panes {
     accuracy: Accuracy,
     thumbnails: Thumbnails,
     cost: Cost,
+    watch: Watch,
 }
 
 impl Editor {
@@ -128,6 +130,7 @@ impl Editor {
             library: LibraryPane::default(),
             accuracy: Accuracy::new(context, &gpu),
             thumbnails: Thumbnails::new(context, &gpu),
+            watch: Watch::new(context),
         };
         let tree = layout::restored(files.settings.layout.clone());
         Editor { context: context.clone(), session, panes, tree, files, messages }
@@ -209,6 +212,7 @@ impl Editor {
     /// Draws the window into a `Ui` that fills it.
     pub fn show(&mut self, ui: &mut egui::Ui) {
         self.hear();
+        self.session.set_pictures(self.panes.watch.hear(&self.context, &self.session));
         self.panes.problems.hear(&self.session);
         self.session.set_notices(self.panes.problems.notices());
         let heat = self.panes.cost.hear(&self.session, self.panes.viewport.stage());

@@ -1,21 +1,25 @@
 //! The pictures that the material names, looked at off the window's thread: which cannot be read, and which normal maps run
-//! the other way. They are decoded again only when the document names others or one of the files has changed. Who draws the
-//! material loads its own.
+//! the other way. They are decoded again only when the document names others or one of the files has changed, which is looked
+//! for once a second. Who draws the material loads its own.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
+use eframe::egui;
 use halfvector_graph::check::{Problem, Severity};
 use halfvector_graph::document::{Document, Graph, SocketRef};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::flatten::find;
 use halfvector_graph::node_def::Default as SocketDefault;
 use halfvector_graph::value::{ColorSpace, ImageRef, Value};
-use halfvector_scene::{ImageError, ImageStore, SceneMaterial, normal_map_problems};
+use halfvector_scene::{FileStamp, ImageError, ImageStore, SceneMaterial, normal_map_problems};
 
 use crate::action::Action;
 use crate::files::relative;
 use crate::session::Session;
+use crate::work::Worker;
 
 /// What was loaded last.
 #[derive(Default)]
@@ -31,8 +35,7 @@ struct Key {
     directory: PathBuf,
     /// The document with nothing but what says which pictures are read.
     named: Document,
-    /// Time and size of each file.
-    stamps: Vec<Option<(SystemTime, u64)>>,
+    stamps: Vec<Option<FileStamp>>,
 }
 
 impl Pictures {
@@ -81,16 +84,70 @@ impl Key {
     }
 }
 
-/// Time and size of the file of a picture; of one within a glTF file, of that file.
-fn stamp(directory: &Path, value: &Value) -> Option<(SystemTime, u64)> {
+/// The state of the file of a picture; of one within a glTF file, of that file.
+fn stamp(directory: &Path, value: &Value) -> Option<FileStamp> {
     let Value::Image(image) = value else { return None };
-    let whole = std::fs::metadata(directory.join(&image.file));
-    let metadata = whole.or_else(|error| match image.file.rsplit_once('#') {
-        Some((file, _)) => std::fs::metadata(directory.join(file)),
-        None => Err(error),
-    });
-    let metadata = metadata.ok()?;
-    Some((metadata.modified().ok()?, metadata.len()))
+    FileStamp::of(&directory.join(&image.file)).or_else(|| {
+        let (file, _) = image.file.rsplit_once('#')?;
+        FileStamp::of(&directory.join(file))
+    })
+}
+
+/// How often it is looked whether files of pictures have changed.
+const EVERY: Duration = Duration::from_secs(1);
+
+/// Sees when others change the pictures that the material names.
+pub(crate) struct Watch {
+    worker: Option<Worker<(Arc<Document>, PathBuf), u64>>,
+    looked: Option<Instant>,
+    number: u64,
+}
+
+impl Watch {
+    /// Starts the thread that looks.
+    pub(crate) fn new(context: &egui::Context) -> Watch {
+        let mut known = BTreeMap::new();
+        let mut number = 0;
+        let worker = Worker::start("picture files", context, move |job: (Arc<Document>, PathBuf), _| {
+            number += u64::from(has_changed(&mut known, &job.0, &job.1));
+            Some(number)
+        });
+        Watch { worker: worker.ok(), looked: None, number: 0 }
+    }
+
+    /// Names the state of the files: another number when one of them has changed. Looks again when it is time.
+    pub(crate) fn hear(&mut self, context: &egui::Context, session: &Session) -> u64 {
+        while let Some(number) = self.worker.as_ref().and_then(Worker::poll) {
+            self.number = number;
+        }
+        if !session.names_pictures() {
+            return self.number;
+        }
+        let waits = self.looked.map_or(Duration::ZERO, |looked| EVERY.saturating_sub(looked.elapsed()));
+        if waits.is_zero() {
+            self.looked = Some(Instant::now());
+            if let Some(worker) = self.worker.as_ref().filter(|worker| !worker.is_busy()) {
+                worker.submit((session.document().clone(), session.directory()));
+            }
+        }
+        context.request_repaint_after(if waits.is_zero() { EVERY } else { waits });
+        self.number
+    }
+}
+
+/// Whether one of the files that were seen before is another one now, or gone, or there.
+fn has_changed(known: &mut BTreeMap<PathBuf, Option<FileStamp>>, document: &Document, directory: &Path) -> bool {
+    let inside = document.groups.values().map(|group| &group.graph);
+    let nodes = std::iter::once(&document.graph).chain(inside).flat_map(|graph| graph.nodes.values());
+    let mut changed = false;
+    for value in nodes.flat_map(|node| node.values.values()) {
+        if let Value::Image(image) = value {
+            let now = stamp(directory, value);
+            let before = known.insert(directory.join(&image.file), now);
+            changed |= before.is_some_and(|before| before != now);
+        }
+    }
+    changed
 }
 
 fn unread(document: &Document, error: &ImageError) -> Problem {

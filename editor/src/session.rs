@@ -37,6 +37,8 @@ pub struct Session {
     problems: Vec<Problem>,
     /// What is wrong with the pictures that the document names, as far as they were looked at.
     notices: Arc<Vec<Problem>>,
+    /// Another number after a file of a picture has changed.
+    pictures: u64,
     /// How costly nodes are; empty while the graph is not coloured by it.
     heat: BTreeMap<NodeId, f32>,
     /// Of the graph that is worked on.
@@ -122,6 +124,7 @@ impl Session {
             selection: BTreeSet::new(),
             heat: BTreeMap::new(),
             notices: Arc::default(),
+            pictures: 0,
             problems: check(&document, Library::standard()),
             library: Library::standard().clone(),
             sound: BTreeMap::new(),
@@ -257,6 +260,16 @@ impl Session {
         if !Arc::ptr_eq(&self.notices, notices) {
             self.notices = notices.clone();
         }
+    }
+
+    /// Names the state of the files of the pictures: what is drawn with them is stale when this differs.
+    pub(crate) fn pictures(&self) -> u64 {
+        self.pictures
+    }
+
+    /// Says that files of pictures have changed.
+    pub(crate) fn set_pictures(&mut self, number: u64) {
+        self.pictures = number;
     }
 
     /// How costly each node is compared with the costliest, 0 to 1; empty while the graph is not to be coloured by it.

@@ -43,6 +43,15 @@ pub(crate) const GOOD: Color32 = Color32::from_rgb(0x48, 0xa6, 0x55);
 /// What is chosen.
 pub(crate) const ACCENT: Color32 = Color32::from_rgb(0x4d, 0x9d, 0xe0);
 
+/// One of them for letters: darker on a light ground, where it would be too pale to be read.
+pub(crate) fn letters(color: Color32, visuals: &egui::Visuals) -> Color32 {
+    if visuals.dark_mode { color } else { Color32::from_rgb(dark(color.r()), dark(color.g()), dark(color.b())) }
+}
+
+fn dark(channel: u8) -> u8 {
+    (u16::from(channel) * 7 / 10) as u8
+}
+
 /// Colours of the graph's ground and cards.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CanvasColors {

@@ -52,9 +52,9 @@ struct Kept {
 pub(crate) struct Thumbnails {
     worker: Option<Worker<Vec<Subject>, Made>>,
     kept: HashMap<Arc<str>, Kept>,
-    /// What nodes show, as of a revision, a folder and a level: the text is made once.
+    /// What nodes show, as of a revision, a state of files, a folder and a level: the text is made once.
     nodes: HashMap<(String, String), Option<Subject>>,
-    shown: Option<(u64, PathBuf, Vec<String>)>,
+    shown: Option<(u64, u64, PathBuf, Vec<String>)>,
     /// Looked at since the last frame and not there, the newest last.
     wanted: Vec<Subject>,
     /// What the thread was given last.
@@ -134,7 +134,7 @@ impl Thumbnails {
         output: &str,
         size: f32,
     ) -> egui::Response {
-        let now = (session.revision(), session.directory(), session.path().to_vec());
+        let now = (session.revision(), session.pictures(), session.directory(), session.path().to_vec());
         if self.shown.as_ref() != Some(&now) {
             self.nodes.clear();
             self.shown = Some(now);

@@ -7,12 +7,13 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
+use std::time::SystemTime;
 
 use halfvector_graph::document::Document;
 use halfvector_graph::flatten::flatten;
 use halfvector_graph::library::Library;
 use halfvector_graph::value::{ColorSpace, ImageRef, Value};
-use halfvector_maps::{Decoded, Image, Limits, Noted, Profile};
+use halfvector_maps::{Channels, Decoded, Image, Limits, Noted, Profile, Texels};
 use rayon::prelude::*;
 
 use crate::environment::read_limited;
@@ -27,7 +28,24 @@ pub const MAX_FILE_BYTES: u64 = 1 << 30;
 pub struct ImageStore {
     images: Vec<Arc<Image>>,
     by_key: HashMap<(ImageKey, ColorSpace), usize>,
+    /// The files as they were when they were read last.
+    stamps: HashMap<PathBuf, Option<FileStamp>>,
     notes: Vec<String>,
+}
+
+/// What tells one state of a file from another: when it was written last, and its size in bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FileStamp {
+    modified: SystemTime,
+    bytes: u64,
+}
+
+impl FileStamp {
+    /// The state of a file now; none of one that is not there.
+    pub fn of(path: &Path) -> Option<FileStamp> {
+        let metadata = std::fs::metadata(path).ok()?;
+        Some(FileStamp { modified: metadata.modified().ok()?, bytes: metadata.len() })
+    }
 }
 
 /// Where a picture lies: a file, or an image within a glTF file.
@@ -118,6 +136,10 @@ impl ImageStore {
                 wanted[place].spaces.insert(image.color_space);
             }
         }
+        // Before they are read: what is written meanwhile is a change.
+        for want in &wanted {
+            self.stamps.insert(want.key.path.clone(), FileStamp::of(&want.key.path));
+        }
         let mut faults = Vec::new();
         let mut assets: BTreeMap<&Path, Option<Asset>> = BTreeMap::new();
         for want in wanted.iter().filter(|want| want.key.in_gltf.is_some()) {
@@ -150,6 +172,48 @@ impl ImageStore {
             [] => note.clone(),
         }));
         faults
+    }
+
+    /// Loads as [`load_all`](Self::load_all) does; a checker of magenta and black stands in for each image that fails, so that
+    /// the rest of the material is to be seen.
+    pub fn load_or_stand_in(&mut self, materials: &[SceneMaterial]) -> Vec<ImageError> {
+        let faults = self.load_all(materials);
+        if faults.is_empty() {
+            return faults;
+        }
+        let mut stand_in = None;
+        for material in materials {
+            let flat = without_groups(&material.document);
+            for (_, _, image) in images_of(&flat) {
+                let key = (ImageKey::new(&material.directory, image), image.color_space);
+                self.by_key.entry(key).or_insert_with(|| {
+                    *stand_in.get_or_insert_with(|| {
+                        self.images.push(Arc::new(checker()));
+                        self.images.len() - 1
+                    })
+                });
+            }
+        }
+        faults
+    }
+
+    /// Forgets the images whose files are not as they were when they were read, so that they are read anew. Indices change.
+    pub fn forget_changed(&mut self) {
+        let ImageStore { images, by_key, stamps, .. } = self;
+        let before = stamps.len();
+        stamps.retain(|path, stamp| FileStamp::of(path) == *stamp);
+        if stamps.len() == before {
+            return;
+        }
+        by_key.retain(|(key, _), _| stamps.contains_key(&key.path));
+        let old = std::mem::take(images);
+        let mut moved: BTreeMap<usize, usize> = BTreeMap::new();
+        for index in by_key.values_mut() {
+            *index = *moved.entry(*index).or_insert_with(|| {
+                images.push(old[*index].clone());
+                images.len() - 1
+            });
+        }
     }
 
     /// The index of the picture that a document in `directory` means. Whether it is read as sRGB or linear makes a
@@ -232,6 +296,18 @@ fn as_wanted(decoded: Decoded, spaces: &BTreeSet<ColorSpace>) -> Result<Vec<Read
             reads.collect()
         }
     }
+}
+
+/// Eight fields of magenta and black along each side, which no picture has by chance.
+fn checker() -> Image {
+    const FIELD: u32 = 16;
+    const SIDE: u32 = 8 * FIELD;
+    let texel = |place: u32| {
+        let is_bright = (place % SIDE / FIELD + place / SIDE / FIELD) % 2 == 0;
+        if is_bright { [255, 0, 255, 255] } else { [0, 0, 0, 255] }
+    };
+    let texels = Texels::U8((0..SIDE * SIDE).map(texel).collect());
+    Image::new(SIDE, SIDE, Channels::Rgb, texels).expect("as many texels as its size says")
 }
 
 impl ImageKey {

@@ -34,7 +34,7 @@ pub use camera::Camera;
 pub use display::Display;
 pub use environment::{Background, EnvironmentSource};
 pub use file::load_scene;
-pub use images::{ImageError, ImageFault, ImageStore};
+pub use images::{FileStamp, ImageError, ImageFault, ImageStore};
 pub use light::Light;
 pub use mesh::{BuiltinMesh, Mesh};
 pub use needs::needs;

@@ -277,6 +277,13 @@ impl Scene {
         Ok(())
     }
 
+    /// Loads them with a checker in place of each image that cannot be read, and those anew whose files have changed since: for
+    /// pictures that follow what a person does. Why images are missing is not told here.
+    pub fn load_images_or_stand_ins(&mut self) {
+        self.images.forget_changed();
+        drop(self.images.load_or_stand_in(&self.materials));
+    }
+
     /// The smallest box around all objects in world space; `None` when there is nothing.
     pub fn bounds(&self) -> Option<Bounds> {
         let boxes = self.meshes.iter().map(|mesh| mesh.bounds()).collect::<Vec<_>>();

@@ -84,7 +84,7 @@ fn list(ui: &mut egui::Ui, title: &str, hints: &[Hint]) {
 }
 
 fn grid(id: &str) -> egui::Grid {
-    egui::Grid::new(id).num_columns(2).striped(true).min_col_width(180.0)
+    egui::Grid::new(id).num_columns(2).striped(true).min_col_width(180.0).spacing([16.0, 4.0])
 }
 
 fn row(ui: &mut egui::Ui, keys: &str, what: &str) {

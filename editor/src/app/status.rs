@@ -54,7 +54,8 @@ impl Messages {
             let name = session.file().and_then(|file| file.file_name()).map(|name| name.to_string_lossy().into_owned());
             let name = name.unwrap_or_else(|| "no file".to_owned());
             if session.is_unsaved() {
-                ui.colored_label(theme::WARNING, format!("• {name}, not saved")).on_hover_text("Save with Ctrl+S");
+                ui.colored_label(theme::letters(theme::WARNING, ui.visuals()), format!("• {name}, not saved"))
+                    .on_hover_text("Save with Ctrl+S");
             } else {
                 ui.weak(name).on_hover_text(session.file().map(|file| file.display().to_string()).unwrap_or_default());
             }
@@ -64,9 +65,11 @@ impl Messages {
                 ui.separator();
                 let count = self.errors.len();
                 let title = format!("{count} error{}", if count == 1 { "" } else { "s" });
-                ui.menu_button(egui::RichText::new(title).color(theme::ERROR), |ui| self.list(ui))
-                    .response
-                    .on_hover_text("What went wrong in this window so far");
+                ui.menu_button(egui::RichText::new(title).color(theme::letters(theme::ERROR, ui.visuals())), |ui| {
+                    self.list(ui)
+                })
+                .response
+                .on_hover_text("What went wrong in this window so far");
             }
             ui.separator();
             self.message(ui);
@@ -97,7 +100,8 @@ impl Messages {
         };
         let strength = (left.as_secs_f32() / FADES.as_secs_f32()).min(1.0);
         ui.ctx().request_repaint_after(if strength < 1.0 { Duration::from_millis(50) } else { left - FADES });
-        let color = if message.is_error { theme::ERROR } else { ui.visuals().text_color() };
+        let color =
+            if message.is_error { theme::letters(theme::ERROR, ui.visuals()) } else { ui.visuals().text_color() };
         let text = egui::RichText::new(&message.text).color(color.gamma_multiply(strength));
         ui.add(egui::Label::new(text).truncate()).on_hover_text(&message.text);
     }

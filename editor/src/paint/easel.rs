@@ -25,8 +25,8 @@ pub(crate) struct Easel {
 }
 
 impl Easel {
-    /// Brings the scene to what the shot wants. Meshes and images that are there stay; what cannot be loaded leaves the
-    /// scene's meshes as they were.
+    /// Brings the scene to what the shot wants. Meshes and images that are there stay; a mesh that cannot be
+    /// loaded leaves the scene's as they were, and a checker stands in for an image that cannot.
     pub(crate) fn set(&mut self, shot: &Shot) -> Result<(), Fault> {
         let stage = &shot.stage;
         if self.mesh.as_ref() != Some(&stage.mesh) {
@@ -55,7 +55,9 @@ impl Easel {
         self.scene.exposure = Exposure::Stops(stage.exposure_stops);
         self.scene.tone_map = stage.tone_map;
         self.scene.methods = stage.methods.clone();
-        self.scene.load_images().map_err(|error| Fault::Material(error.to_string()))
+        // What is wrong with them is told among the problems.
+        self.scene.load_images_or_stand_ins();
+        Ok(())
     }
 
     /// The scene as it was set last.

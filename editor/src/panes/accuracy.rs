@@ -1,7 +1,10 @@
 //! How exact the shader of this material is: its error against the reference, what other methods would give, and the white
-//! furnace. It is measured when it is asked for, in the background.
+//! furnace. Errors are measured in the background while the pane is seen and the material rests; the furnace when it is asked for.
+
+use std::time::{Duration, Instant};
 
 use eframe::egui;
+use halfvector_graph::check::Severity;
 use halfvector_graph::method::term;
 
 use crate::accuracy::{Bench, Furnace, Job, Row, Told, What};
@@ -10,6 +13,9 @@ use crate::panes::viewport::Viewport;
 use crate::session::Session;
 use crate::theme;
 use crate::work::Worker;
+
+/// How long a material rests before its errors are measured.
+const REST: Duration = Duration::from_millis(1500);
 
 /// The measurements.
 pub(crate) struct Accuracy {
@@ -23,8 +29,12 @@ pub(crate) struct Accuracy {
     failed: Option<String>,
     /// What of the material is no finite number, in words.
     faults: Vec<String>,
-    /// Of the document that was measured.
-    revision: u64,
+    /// Of the document whose errors were measured, or are, or are not to be.
+    measured: Option<u64>,
+    /// The document that is seen, and since when.
+    seen: Option<(u64, Instant)>,
+    /// What was started last.
+    what: What,
 }
 
 impl Accuracy {
@@ -42,7 +52,9 @@ impl Accuracy {
             furnace: None,
             failed: None,
             faults: Vec::new(),
-            revision: 0,
+            measured: None,
+            seen: None,
+            what: What::Errors,
         }
     }
 
@@ -54,6 +66,7 @@ impl Accuracy {
     /// Draws what is known.
     pub(crate) fn show(&mut self, ui: &mut egui::Ui, session: &Session, viewport: &mut Viewport) {
         self.poll(ui);
+        self.follow(ui, session, viewport);
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
                 let is_busy = !self.is_idle();
@@ -74,20 +87,23 @@ impl Accuracy {
                     self.doing = None;
                 }
                 if let Some(what) = start {
-                    self.start(what, session, viewport);
+                    self.start(what, ui, session, viewport);
                 }
-                if !self.rows.is_empty() && self.revision != session.revision() {
-                    ui.colored_label(theme::WARNING, "The material has changed since it was measured.");
+                if !self.rows.is_empty() && self.measured != Some(session.revision()) {
+                    ui.colored_label(
+                        theme::letters(theme::WARNING, ui.visuals()),
+                        "The material has changed since it was measured.",
+                    );
                 }
             });
             if let Some((doing, done)) = &self.doing {
                 ui.add(egui::ProgressBar::new(*done).text(doing.as_str()).desired_width(260.0));
             }
             if let Some(why) = &self.failed {
-                ui.colored_label(theme::ERROR, why);
+                ui.colored_label(theme::letters(theme::ERROR, ui.visuals()), why);
             }
             for fault in &self.faults {
-                ui.colored_label(theme::WARNING, sentence(fault));
+                ui.colored_label(theme::letters(theme::WARNING, ui.visuals()), sentence(fault));
             }
             egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
                 ui.horizontal_top(|ui| {
@@ -99,12 +115,43 @@ impl Accuracy {
         });
     }
 
-    fn start(&mut self, what: What, session: &Session, viewport: &mut Viewport) {
+    /// Measures the errors of what has come to rest, unless a person stopped that. What runs for an older state is ended.
+    fn follow(&mut self, ui: &egui::Ui, session: &Session, viewport: &mut Viewport) {
+        let revision = session.revision();
+        let since = match self.seen {
+            Some((seen, since)) if seen == revision => since,
+            _ => {
+                self.seen = Some((revision, Instant::now()));
+                if !self.is_idle() && self.what == What::Errors {
+                    self.worker.iter().for_each(Worker::cancel);
+                    self.doing = None;
+                }
+                Instant::now()
+            }
+        };
+        let is_sound = !session.problems().iter().any(|problem| problem.severity == Severity::Error);
+        if self.measured == Some(revision) || !is_sound {
+            return;
+        }
+        let left = REST.saturating_sub(since.elapsed());
+        if left.is_zero() && self.is_idle() && viewport.is_idle() {
+            self.start(What::Errors, ui, session, viewport);
+        } else {
+            ui.ctx().request_repaint_after(left.max(Duration::from_millis(100)));
+        }
+    }
+
+    fn start(&mut self, what: What, ui: &egui::Ui, session: &Session, viewport: &mut Viewport) {
+        // What an older one has told last is not of this one.
+        self.poll(ui);
         let Some(worker) = &self.worker else { return };
         self.failed = None;
-        self.revision = session.revision();
+        self.what = what;
         match what {
-            What::Errors => (self.rows, self.truth, self.faults) = (Vec::new(), None, Vec::new()),
+            What::Errors => {
+                (self.rows, self.truth, self.faults) = (Vec::new(), None, Vec::new());
+                self.measured = Some(session.revision());
+            }
             What::Furnace => self.furnace = None,
         }
         self.doing = Some(("Starting".to_owned(), 0.0));
@@ -137,7 +184,8 @@ impl Accuracy {
 
     fn table(&self, ui: &mut egui::Ui) {
         let Some(first) = self.rows.first() else {
-            if self.failed.is_none() {
+            // Beside it nothing else has room.
+            if self.failed.is_none() && self.doing.is_none() && self.furnace.is_none() {
                 ui.weak(
                     "Not measured yet. Measuring draws this material with the viewport's methods and with each other one, and \
                      compares the pictures with a path-traced reference. The furnace test draws it in even light: what is \
@@ -172,8 +220,8 @@ impl Accuracy {
                 }
                 // What makes the picture visibly better or worse than it is.
                 let color = match row.flip - first.flip {
-                    change if change < -0.0005 => theme::GOOD,
-                    change if change > 0.0005 => theme::WARNING,
+                    change if change < -0.0005 => theme::letters(theme::GOOD, ui.visuals()),
+                    change if change > 0.0005 => theme::letters(theme::WARNING, ui.visuals()),
                     _ => ui.visuals().text_color(),
                 };
                 for text in [
@@ -197,7 +245,11 @@ impl Accuracy {
             ui.vertical(|ui| {
                 let [least, mean, most] = furnace.reflected;
                 for (name, value) in [("Least", least), ("Mean", mean), ("Most", most)] {
-                    let color = if value > 1.005 { theme::ERROR } else { ui.visuals().text_color() };
+                    let color = if value > 1.005 {
+                        theme::letters(theme::ERROR, ui.visuals())
+                    } else {
+                        ui.visuals().text_color()
+                    };
                     ui.label(egui::RichText::new(format!("{name:<6}{value:.4}")).monospace().color(color));
                 }
             });

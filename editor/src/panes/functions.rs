@@ -144,7 +144,7 @@ impl Functions {
             ui.weak(text);
         });
         if let Some(why) = &self.refused {
-            ui.colored_label(theme::ERROR, why);
+            ui.colored_label(theme::letters(theme::ERROR, ui.visuals()), why);
         }
     }
 
@@ -313,6 +313,12 @@ fn mark(
     ui.painter().hline(left..=right.max(left + 7.0), y, Stroke::new(2.0, theme::ERROR));
     let said = Pos2::new(at.x + end.left() + 18.0, row.center().y);
     let font = FontId::proportional(12.0);
-    ui.painter().text(said, egui::Align2::LEFT_CENTER, &wrong.message, font, theme::ERROR);
+    ui.painter().text(
+        said,
+        egui::Align2::LEFT_CENTER,
+        &wrong.message,
+        font,
+        theme::letters(theme::ERROR, ui.visuals()),
+    );
     row
 }

@@ -45,7 +45,7 @@ impl Inspector {
 
     /// Draws what there is to be known and set of the selection.
     pub(crate) fn show(&mut self, ui: &mut egui::Ui, session: &Session, actions: &mut Vec<Action>) {
-        self.thumbnails.hear(ui.ctx());
+        self.thumbnails.hear(ui.ctx(), session.pictures());
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
                 let mut selected = session.selection().iter();

@@ -25,6 +25,8 @@ struct Job {
     document: Arc<Document>,
     directory: PathBuf,
     revision: u64,
+    /// The state of the files of its pictures.
+    pictures: u64,
     /// Whether f32 is compared with f64.
     stability: bool,
 }
@@ -33,6 +35,7 @@ struct Job {
 #[derive(Debug)]
 struct Found {
     revision: u64,
+    pictures: u64,
     problems: Vec<Problem>,
     stability: Option<Result<Stability, String>>,
 }
@@ -41,8 +44,8 @@ struct Found {
 #[derive(Debug)]
 pub(crate) struct Problems {
     worker: Option<Worker<Job, Found>>,
-    /// The revision whose pictures were looked at, or are.
-    asked: Option<u64>,
+    /// The revision whose pictures were looked at, or are, and the state of their files.
+    asked: Option<(u64, u64)>,
     notices: Arc<Vec<Problem>>,
     /// Of the revision that it holds.
     stability: Option<(u64, Result<Stability, String>)>,
@@ -86,15 +89,16 @@ impl Problems {
     /// Takes what was found, and has the pictures looked at after a change.
     pub(crate) fn hear(&mut self, session: &Session) {
         while let Some(found) = self.worker.as_ref().and_then(Worker::poll) {
-            if self.asked == Some(found.revision) && *self.notices != found.problems {
+            if self.asked == Some((found.revision, found.pictures)) && *self.notices != found.problems {
                 self.notices = Arc::new(found.problems);
             }
             if let Some(stability) = found.stability {
                 self.stability = Some((found.revision, stability));
             }
         }
-        if self.asked != Some(session.revision()) {
-            self.asked = Some(session.revision());
+        let now = (session.revision(), session.pictures());
+        if self.asked != Some(now) {
+            self.asked = Some(now);
             if session.names_pictures() {
                 self.submit(session, false);
             } else {
@@ -106,7 +110,8 @@ impl Problems {
     fn submit(&self, session: &Session, stability: bool) {
         if let Some(worker) = &self.worker {
             let (document, directory) = (session.document().clone(), session.directory());
-            worker.submit(Job { document, directory, revision: session.revision(), stability });
+            let (revision, pictures) = (session.revision(), session.pictures());
+            worker.submit(Job { document, directory, revision, pictures, stability });
         }
     }
 
@@ -118,7 +123,7 @@ impl Problems {
                 let all: Vec<&Problem> = session.all_problems().collect();
                 let shown: Vec<&&Problem> = all.iter().filter(|problem| self.passes(problem)).collect();
                 if all.is_empty() {
-                    ui.colored_label(theme::GOOD, "No problems");
+                    ui.colored_label(theme::letters(theme::GOOD, ui.visuals()), "No problems");
                 } else if shown.is_empty() {
                     ui.weak(format!("None of {} problems passes the filter", all.len()));
                 }
@@ -174,11 +179,14 @@ impl Problems {
         });
         match found {
             Err(why) => {
-                ui.colored_label(theme::ERROR, why);
+                ui.colored_label(theme::letters(theme::ERROR, ui.visuals()), why);
             }
             Ok(found) => {
                 if found.unstable.is_empty() {
-                    ui.colored_label(theme::GOOD, "f32 computes what exact arithmetic does, everywhere that was tried");
+                    ui.colored_label(
+                        theme::letters(theme::GOOD, ui.visuals()),
+                        "f32 computes what exact arithmetic does, everywhere that was tried",
+                    );
                 }
                 found.unstable.iter().for_each(|finding| unstable(ui, session, finding, actions));
                 found.edges.iter().for_each(|jump| edge(ui, session, jump, actions));
@@ -196,7 +204,7 @@ fn look(job: &Job, pictures: &mut Pictures) -> Found {
         let scene = Scene { materials: vec![material], images, ..Scene::default() };
         stability(&scene, 0, Precision::Single).map_err(|error| error.to_string())
     });
-    Found { revision: job.revision, problems, stability: found }
+    Found { revision: job.revision, pictures: job.pictures, problems, stability: found }
 }
 
 fn row(ui: &mut egui::Ui, session: &Session, problem: &Problem, actions: &mut Vec<Action>) {
@@ -205,7 +213,7 @@ fn row(ui: &mut egui::Ui, session: &Session, problem: &Problem, actions: &mut Ve
         Severity::Warning => ("⚠", theme::WARNING),
     };
     ui.horizontal_wrapped(|ui| {
-        ui.colored_label(color, mark);
+        ui.colored_label(theme::letters(color, ui.visuals()), mark);
         if let Some(node) = &problem.node {
             let label = problem.node_label.as_deref().unwrap_or(node);
             if ui.link(label).on_hover_text("Show the node").clicked() {
@@ -226,10 +234,10 @@ fn row(ui: &mut egui::Ui, session: &Session, problem: &Problem, actions: &mut Ve
 
 fn unstable(ui: &mut egui::Ui, session: &Session, finding: &Finding, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
-        ui.colored_label(theme::WARNING, "⚠");
+        ui.colored_label(theme::letters(theme::WARNING, ui.visuals()), "⚠");
         output(ui, session, (&finding.node, &finding.label, &finding.output), actions);
-        let (narrow, exact) = (finding.narrow, finding.exact);
-        ui.label(format!("f32 is wrong: {narrow:.6} instead of {exact:.6}{}", place(&finding.input)));
+        let (narrow, exact) = (number(finding.narrow), number(finding.exact));
+        ui.label(format!("f32 is wrong: {narrow} instead of {exact}{}", place(&finding.input)));
         for (count, what) in [
             (finding.nan, "no number"),
             (finding.infinite, "infinite"),
@@ -250,9 +258,9 @@ fn unstable(ui: &mut egui::Ui, session: &Session, finding: &Finding, actions: &m
 
 fn edge(ui: &mut egui::Ui, session: &Session, edge: &Edge, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
-        ui.weak("⌐");
+        ui.weak("•");
         output(ui, session, (&edge.node, &edge.label, &edge.output), actions);
-        ui.label(format!("jumps from {:.6} to {:.6}{}", edge.from, edge.to, place(&edge.input)));
+        ui.label(format!("jumps from {} to {}{}", number(edge.from), number(edge.to), place(&edge.input)));
     });
 }
 
@@ -264,8 +272,13 @@ fn output(ui: &mut egui::Ui, session: &Session, (node, label, output): (&str, &s
     ui.weak(output);
 }
 
+/// A value with six digits behind the point, or as a power of ten where these would not show it.
+fn number(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e7).contains(&x.abs()) || !x.is_finite() { format!("{x:.6}") } else { format!("{x:.6e}") }
+}
+
 /// Where that is.
 fn place(input: &[(String, f64)]) -> String {
-    let place: Vec<String> = input.iter().map(|(name, x)| format!("{name} = {x:.6}")).collect();
+    let place: Vec<String> = input.iter().map(|(name, x)| format!("{name} = {}", number(*x))).collect();
     if place.is_empty() { String::new() } else { format!(" at {}", place.join(", ")) }
 }

@@ -81,6 +81,8 @@ struct Wish {
     engine: Engine,
     document: Arc<Document>,
     directory: PathBuf,
+    /// The state of the files of its pictures.
+    pictures: u64,
     stage: Stage,
     light: Option<Arc<Light>>,
     size: [u32; 2],
@@ -93,6 +95,7 @@ impl Wish {
         self.engine == other.engine
             && Arc::ptr_eq(&self.document, &other.document)
             && self.directory == other.directory
+            && self.pictures == other.pictures
             && self.stage == other.stage
             && self.light.as_ref().map(Arc::as_ptr) == other.light.as_ref().map(Arc::as_ptr)
             && self.size == other.size
@@ -285,7 +288,8 @@ impl Viewport {
                 Some(pinned) => (pinned.document.clone(), pinned.directory.clone()),
                 None => (session.document().clone(), session.directory()),
             };
-            let wish = Wish { engine: choice.engine, document, directory, stage, light, size, is_moving };
+            let pictures = session.pictures();
+            let wish = Wish { engine: choice.engine, document, directory, pictures, stage, light, size, is_moving };
             let side = &mut self.sides[number];
             // While something moves elsewhere the picture stays as it is; when it ends, a coarse one is refined.
             let is_drawn =

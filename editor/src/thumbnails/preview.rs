@@ -36,8 +36,8 @@ pub(super) fn preview(session: &Session, node: &str, output: &str) -> Option<Sub
                 Some(end) if end != node => Arc::new(part(document, node)?),
                 _ => document.clone(),
             };
-            let key = format!("material {}", to_json(&document)).into();
             let directory = session.directory();
+            let key = format!("material {} {}", session.pictures(), to_json(&document)).into();
             Some(Subject { key, document, directory, mesh: BuiltinMesh::Sphere, is_lit: true })
         }
         (SocketType::Value(ty), path) => {
@@ -45,8 +45,9 @@ pub(super) fn preview(session: &Session, node: &str, output: &str) -> Option<Sub
             let (whole, from) = lifted(document, path, from, ty)?;
             let (cut, mesh) = glowing(&whole, from, ty, is_direction)?;
             // Positions do not matter, and the cut has none.
-            let key = format!("value {} {}", session.directory().display(), to_json(&cut)).into();
-            Some(Subject { key, document: cut.into(), directory: session.directory(), mesh, is_lit: false })
+            let (directory, pictures) = (session.directory(), session.pictures());
+            let key = format!("value {pictures} {} {}", directory.display(), to_json(&cut)).into();
+            Some(Subject { key, document: cut.into(), directory, mesh, is_lit: false })
         }
         _ => None,
     }

@@ -9,13 +9,13 @@
 /// - return: 0 on a line, 1 beside
 /// @vertex node_procedural_crosshatch_vertex
 fn node_procedural_crosshatch(uv: vec2f, count: f32, tone: f32) -> f32 {
-    let lines = count * vec2f(uv.x + uv.y, uv.x - uv.y);
+    let lines = held2(count * vec2f(uv.x + uv.y, uv.x - uv.y));
     return hatching(lines, fwidth(lines), clamp(tone, 0.0, 1.0));
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_crosshatch_vertex(uv: vec2f, count: f32, tone: f32) -> f32 {
-    return hatching(count * vec2f(uv.x + uv.y, uv.x - uv.y), vec2f(0.0), clamp(tone, 0.0, 1.0));
+    return hatching(held2(count * vec2f(uv.x + uv.y, uv.x - uv.y)), vec2f(0.0), clamp(tone, 0.0, 1.0));
 }
 
 /// The part of a window that two sets of lines leave white: the first leaves at least half, the second takes what is wanted of the rest.

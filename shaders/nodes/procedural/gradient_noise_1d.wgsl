@@ -19,12 +19,12 @@ fn gradient_noise1(x: f32, seed: i32) -> f32 {
 /// - return: -1 to 1, mean 0
 /// @vertex node_procedural_gradient_noise_1d_vertex
 fn node_procedural_gradient_noise_1d(x: f32, scale: f32, seed: i32) -> f32 {
-    let p = x * scale;
+    let p = held1(x * scale);
     let width = min(fwidth(p), 1e3);
     return gradient_noise1(p, seed) * left_of_noise(1.0, width * width);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_gradient_noise_1d_vertex(x: f32, scale: f32, seed: i32) -> f32 {
-    return gradient_noise1(x * scale, seed);
+    return gradient_noise1(held1(x * scale), seed);
 }

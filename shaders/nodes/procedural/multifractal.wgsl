@@ -16,13 +16,13 @@
 /// - return: 0 upward, mean 1
 /// @vertex node_procedural_multifractal_2d_vertex
 fn node_procedural_multifractal_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return multifractal2(p, squared_footprint2(p), octaves, lacunarity, gain, 0.0, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_multifractal_2d_vertex(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    return multifractal2(uv * scale, 0.0, octaves, lacunarity, gain, 0.0, seed);
+    return multifractal2(held2(uv * scale), 0.0, octaves, lacunarity, gain, 0.0, seed);
 }
 
 /// Terrain 2D
@@ -42,13 +42,13 @@ fn node_procedural_multifractal_2d_vertex(uv: vec2f, scale: f32, octaves: i32, l
 /// - return: 0 upward, mean 1
 /// @vertex node_procedural_terrain_2d_vertex
 fn node_procedural_terrain_2d(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, offset: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return multifractal2(p, squared_footprint2(p), octaves, lacunarity, gain, clamp(offset, 1.0, 8.0), seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_terrain_2d_vertex(uv: vec2f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, offset: f32, seed: i32) -> f32 {
-    return multifractal2(uv * scale, 0.0, octaves, lacunarity, gain, clamp(offset, 1.0, 8.0), seed);
+    return multifractal2(held2(uv * scale), 0.0, octaves, lacunarity, gain, clamp(offset, 1.0, 8.0), seed);
 }
 
 /// The product over a window of `squared_width`: of a terrain `offset` above the sea, or with 0 of a multifractal.
@@ -84,13 +84,13 @@ fn multifractal2(start: vec2f, squared_width: f32, octaves: i32, lacunarity: f32
 /// - return: 0 upward, mean 1
 /// @vertex node_procedural_multifractal_3d_vertex
 fn node_procedural_multifractal_3d(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    let p = position * scale;
+    let p = held3(position * scale);
     return multifractal3(p, squared_footprint(p), octaves, lacunarity, gain, 0.0, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_multifractal_3d_vertex(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, seed: i32) -> f32 {
-    return multifractal3(position * scale, 0.0, octaves, lacunarity, gain, 0.0, seed);
+    return multifractal3(held3(position * scale), 0.0, octaves, lacunarity, gain, 0.0, seed);
 }
 
 /// Terrain 3D
@@ -110,13 +110,13 @@ fn node_procedural_multifractal_3d_vertex(position: vec3f, scale: f32, octaves: 
 /// - return: 0 upward, mean 1
 /// @vertex node_procedural_terrain_3d_vertex
 fn node_procedural_terrain_3d(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, offset: f32, seed: i32) -> f32 {
-    let p = position * scale;
+    let p = held3(position * scale);
     return multifractal3(p, squared_footprint(p), octaves, lacunarity, gain, clamp(offset, 1.0, 8.0), seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_terrain_3d_vertex(position: vec3f, scale: f32, octaves: i32, lacunarity: f32, gain: f32, offset: f32, seed: i32) -> f32 {
-    return multifractal3(position * scale, 0.0, octaves, lacunarity, gain, clamp(offset, 1.0, 8.0), seed);
+    return multifractal3(held3(position * scale), 0.0, octaves, lacunarity, gain, clamp(offset, 1.0, 8.0), seed);
 }
 
 /// The product over a window of `squared_width`: of a terrain `offset` above the sea, or with 0 of a multifractal.

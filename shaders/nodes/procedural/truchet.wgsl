@@ -10,13 +10,13 @@
 /// - return: 1 on a line, 0 beside
 /// @vertex node_procedural_truchet_vertex
 fn node_procedural_truchet(uv: vec2f, scale: f32, width: f32, seed: i32) -> f32 {
-    let p = uv * scale;
+    let p = held2(uv * scale);
     return truchet(p, squared_footprint2(p), clamp(width, 0.0, 0.4), seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_truchet_vertex(uv: vec2f, scale: f32, width: f32, seed: i32) -> f32 {
-    return truchet(uv * scale, 0.0, clamp(width, 0.0, 0.4), seed);
+    return truchet(held2(uv * scale), 0.0, clamp(width, 0.0, 0.4), seed);
 }
 
 /// The part of a window that the arcs cover.

@@ -11,13 +11,13 @@
 /// - seed: another one, another pattern [0; 0..100]
 /// @vertex node_procedural_voronoi_edges_3d_vertex
 fn node_procedural_voronoi_edges_3d(position: vec3f, scale: f32, jitter: f32, width: f32, seed: i32) -> VoronoiEdgesOutputs {
-    let p = position * scale;
+    let p = held3(position * scale);
     return voronoi_edges3(p, squared_footprint(p), clamp(jitter, 0.0, 1.0), width, seed);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_voronoi_edges_3d_vertex(position: vec3f, scale: f32, jitter: f32, width: f32, seed: i32) -> VoronoiEdgesOutputs {
-    return voronoi_edges3(position * scale, 0.0, clamp(jitter, 0.0, 1.0), width, seed);
+    return voronoi_edges3(held3(position * scale), 0.0, clamp(jitter, 0.0, 1.0), width, seed);
 }
 
 /// Voronoi cells of space and the walls between them over a window.

@@ -44,6 +44,20 @@ const ODD: &str = r#"{"halfvector": 1, "name": "Odd",
   "functions": {"odd": ["/// Odd", "///", "/// Test.", "/// @node custom/odd", "/// - uv: where [context uv0]", "/// - return: light",
     "fn odd(uv: vec2f) -> vec3f {", "return vec3f(sqrt(uv.x - 0.5));", "}"]}}"#;
 
+/// Waits until errors are being measured, which begins by itself; whether they were said to be old until then.
+fn wait_for_measuring(window: &mut Window) -> bool {
+    let start = std::time::Instant::now();
+    let mut was_old = false;
+    while window.query_by_label("Stop").is_none() {
+        was_old |= window.query_by_label_contains("has changed since").is_some();
+        assert!(start.elapsed().as_secs() < 60, "nothing is measured");
+        window.step();
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    was_old
+}
+
+/// Errors are measured once the material rests, and again after a change.
 #[test]
 fn errors_are_measured_against_the_reference() {
     // A light that is no number on half of the surface is told.
@@ -51,26 +65,34 @@ fn errors_are_measured_against_the_reference() {
     let path = folder.path().join("odd.material.json");
     std::fs::write(&path, ODD).expect("written");
     let mut window = open_with(Options { document: Some(path), ..Options::default() });
-    show(&mut window, "Accuracy");
-    window.get_by_label("Measure errors").click();
-    window.run_steps(2);
-    assert!(window.query_by_label("Stop").is_some());
-    settle(&mut window);
+    window.get_by_role_and_label(Role::Button, "Accuracy").click();
+    assert!(!wait_for_measuring(&mut window));
     let rows = ["as it is", "karis", "hdre"];
-    assert!(rows.iter().all(|row| window.query_by_label(row).is_some()));
-    assert!(window.query_by_label_contains("paths for each pixel").is_some());
-    assert!(window.query_by_label_contains("`Odd` is NaN or infinite at").is_some());
-    set(&mut window, "height", 0.1);
-    assert!(window.query_by_label_contains("has changed since").is_some());
+    for change in [Some(0.1), None] {
+        settle(&mut window);
+        assert!(rows.iter().all(|row| window.query_by_label(row).is_some()));
+        assert!(window.query_by_label_contains("paths for each pixel").is_some());
+        assert!(window.query_by_label_contains("`Odd` is NaN or infinite at").is_some());
+        assert!(window.query_by_label_contains("has changed since").is_none());
+        let Some(height) = change else { break };
+        let edit = Edit::SetValue { socket: SocketRef::new("surface", "height"), value: Some(Value::Number(height)) };
+        window.state_mut().act(Action::edit("Set", edit));
+        assert!(wait_for_measuring(&mut window), "rows of an older state are not told");
+    }
 }
 
 #[test]
 fn the_furnace_is_lit_on_demand_and_a_measurement_is_stopped() {
     let mut window = open();
-    show(&mut window, "Accuracy");
+    window.get_by_role_and_label(Role::Button, "Accuracy").click();
+    wait_for_measuring(&mut window);
+    window.get_by_label("Stop").click();
+    settle(&mut window);
     window.get_by_label("Furnace test").click();
     settle(&mut window);
-    assert!(window.query_by_label("The material in the white furnace").is_some());
+    // In view, and not behind the words that nothing was measured.
+    let picture = window.get_by_label("The material in the white furnace").rect();
+    assert!(picture.right() < window.get_by_label("Picture of the material").rect().left(), "{picture:?}");
     window.get_by_label("Measure errors").click();
     window.run_steps(2);
     window.get_by_label("Stop").click();
@@ -141,4 +163,34 @@ fn a_gpu_that_goes_while_it_draws_leaves_the_picture_to_the_cpu() {
     settle(&mut window);
     assert!(window.query_by_label_contains("Drawn on the CPU:").is_none());
     assert_ne!(window.state().drawn_by(), Some("CPU"));
+}
+
+/// f32 is compared with exact arithmetic on demand; a finding leads to its node, and small numbers are to be told apart from 0.
+#[test]
+fn stability_is_checked_and_leads_to_the_node() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("jumps.material.json");
+    let text = r#"{"halfvector": 1, "name": "Jumps", "nodes": {
+        "place": {"node": "coordinates/object_position"},
+        "parts": {"node": "vector/separate3"},
+        "log": {"node": "math/log", "label": "Logarithm of x"},
+        "surface": {"node": "surface/surface"}},
+        "links": [{"from": "place.out", "to": "parts.v"}, {"from": "parts.x", "to": "log.x"},
+            {"from": "log.out", "to": "surface.metallic"}]}"#;
+    std::fs::write(&file, text).expect("written");
+    let options = Options { document: Some(file), ..Options::default() };
+    let mut window =
+        Harness::builder().with_size([1000.0, 620.0]).build_eframe(|context| Editor::new(&context.egui_ctx, options));
+    settle(&mut window);
+    show(&mut window, "Problems");
+    window.get_by_label("Check stability").click();
+    window.run_steps(2);
+    settle(&mut window);
+    assert!(window.query_by_label_contains("jumps from").is_some());
+    assert!(window.query_by_label_contains("object_position.x = -0.000000").is_none());
+    window.get_all_by_label("Logarithm of x").last().expect("a link").click();
+    window.run_steps(3);
+    assert!(window.state().session().selection().contains("log"));
+    set(&mut window, "ior", 1.4);
+    assert!(window.query_by_label_contains("of an older state").is_some());
 }

@@ -91,3 +91,54 @@ fn a_small_window_with_a_node_selected() {
     window.state_mut().act(Action::Select(vec![first]));
     compare(&mut window, "small");
 }
+
+/// Every character of the editor and of the nodes is in its fonts, as another one would be an empty box.
+#[test]
+fn every_character_is_in_the_fonts() {
+    fn characters(path: &Path, found: &mut std::collections::BTreeMap<char, std::path::PathBuf>) {
+        if path.is_dir() {
+            for entry in std::fs::read_dir(path).expect("a folder") {
+                characters(&entry.expect("an entry").path(), found);
+            }
+        } else if let Ok(text) = std::fs::read_to_string(path) {
+            for character in text.chars().filter(|character| !character.is_ascii()) {
+                found.entry(character).or_insert_with(|| path.to_owned());
+            }
+        }
+    }
+    let mut found = std::collections::BTreeMap::new();
+    for place in ["editor", "shaders/nodes", "examples"] {
+        characters(&root().join(place), &mut found);
+    }
+    assert!(found.len() > 8, "{found:?}");
+    let mut window = Harness::new_ui(|_| {});
+    window.step();
+    let font = egui::FontId::proportional(14.0);
+    found.retain(|&character, _| !window.ctx.fonts_mut(|fonts| fonts.has_glyph(&font, character)));
+    assert!(found.is_empty(), "they are shown as empty boxes: {found:?}");
+}
+
+/// Coloured words can be read in both themes: a contrast of 4 to 1 with their ground at least.
+#[test]
+fn coloured_words_can_be_read() {
+    if renderer().is_none() {
+        return;
+    }
+    for theme in [egui::Theme::Dark, egui::Theme::Light] {
+        let mut window = open([1000.0, 620.0], theme, "examples/car-paint.material.json");
+        window.get_by_label("Problems").click();
+        window.run_steps(4);
+        let place = window.get_by_label("No problems").rect();
+        let drawn = window.render().expect("a picture");
+        let light = |pixel: &image::Rgba<u8>| {
+            let [r, g, b, _] = pixel.0.map(|code| f64::from(code) / 255.0);
+            let [r, g, b] = linear_from_srgb([r, g, b]);
+            0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05
+        };
+        let pixels = drawn.enumerate_pixels().filter(|(x, y, _)| place.contains(egui::pos2(*x as f32, *y as f32)));
+        let (least, most) = pixels.fold((f64::INFINITY, 0.0_f64), |(least, most), (_, _, pixel)| {
+            (least.min(light(pixel)), most.max(light(pixel)))
+        });
+        assert!(most / least > 4.0, "{theme:?}: {:.2}", most / least);
+    }
+}

@@ -9,6 +9,7 @@ use halfvector_scene::{EnvironmentSource, MeshSource};
 
 use super::hands::drop_file;
 use super::settle;
+use crate::support::renderer;
 
 /// A window small enough that its pictures cost little.
 fn open(options: Options) -> Harness<'static, Editor> {
@@ -205,4 +206,70 @@ fn without_a_graphics_card_the_cpu_draws_and_says_so() {
     // Asked again, it is opened where there is one; either way there is a picture and no end.
     click(&mut harness, "Try the GPU again");
     settle(&mut harness);
+}
+
+/// The share of the picture that is magenta, as no material of these tests is.
+fn magenta(harness: &mut Harness<'_, Editor>) -> f64 {
+    settle(harness);
+    let place = harness.get_by_label(PICTURE).rect();
+    let drawn = harness.render().expect("a picture");
+    let scale = harness.ctx.pixels_per_point();
+    let pixels = drawn.enumerate_pixels().filter(|(x, y, _)| {
+        let at = egui::pos2(*x as f32, *y as f32) / scale;
+        place.contains(at)
+    });
+    let (mut all, mut found) = (0, 0);
+    for (_, _, pixel) in pixels {
+        let [red, green, blue, _] = pixel.0;
+        all += 1;
+        found += u32::from(red > 150 && blue > 150 && green < 60);
+    }
+    f64::from(found) / f64::from(all.max(1))
+}
+
+/// A checker stands in for a picture that is not there, in each engine, and goes when the picture comes.
+#[test]
+fn a_picture_that_is_missing_leaves_the_rest_to_be_seen() {
+    if renderer().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("missing.material.json");
+    let text = r#"{"halfvector": 1, "name": "Missing", "nodes": {
+        "gone": {"node": "textures/image", "values": {"image": {"file": "gone.png"}}},
+        "surface": {"node": "surface/surface", "values": {"base_color": [0, 0, 0], "specular": 0}}},
+        "links": [{"from": "gone.color", "to": "surface.emission"}]}"#;
+    std::fs::write(&file, text).expect("written");
+    let picture = folder.path().join("gone.png");
+    for without_gpu in [false, true] {
+        let options = Options { document: Some(file.clone()), without_gpu, ..Options::default() };
+        let mut harness = Harness::builder()
+            .with_size([1000.0, 620.0])
+            .wgpu()
+            .build_eframe(|context| Editor::new(&context.egui_ctx, options));
+        let share = magenta(&mut harness);
+        assert!(share > 0.05, "{share}, without a GPU: {without_gpu}");
+        harness.get_by_label("Problems (1)");
+        // Half written first, then whole.
+        for (bytes, is_whole) in [(b"half".to_vec(), false), (green(), true)] {
+            std::fs::write(&picture, bytes).expect("written");
+            let start = std::time::Instant::now();
+            while (magenta(&mut harness) < 0.01) != is_whole
+                || harness.query_by_label("Problems (1)").is_some() == is_whole
+            {
+                assert!(start.elapsed().as_secs() < 60, "the file is not seen");
+                std::thread::sleep(std::time::Duration::from_millis(100));
+            }
+        }
+        std::fs::remove_file(&picture).expect("removed");
+    }
+}
+
+/// A green picture as the bytes of a file.
+fn green() -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image::RgbImage::from_pixel(4, 4, image::Rgb([20, 200, 20]))
+        .write_to(&mut bytes, image::ImageFormat::Png)
+        .expect("coded");
+    bytes.into_inner()
 }

@@ -99,3 +99,37 @@ fn a_wrong_green_is_warned_of() {
         }
     }
 }
+
+/// A checker stands in for what cannot be read, until the file is there; what has not changed stays the same picture.
+#[test]
+fn a_checker_stands_in_until_the_file_comes() {
+    let folder = tempdir().unwrap();
+    GrayImage::from_pixel(2, 2, Luma([80])).save(folder.path().join("here.png")).unwrap();
+    let nodes = [image_node("gone", "gone.png", "srgb"), image_node("here", "here.png", "linear")].join(",");
+    let links = r#"{"from": "gone.color", "to": "surface.base_color"}, {"from": "here.r", "to": "surface.metallic"}"#;
+    let material = material(folder.path(), &nodes, links);
+    let mut images = ImageStore::default();
+    let get = |images: &ImageStore, node: &str| {
+        let halfvector_graph::value::Value::Image(image) = &material.document.graph.nodes[node].values["image"] else {
+            panic!("an image")
+        };
+        images.images()[images.index(folder.path(), image).unwrap()].clone()
+    };
+    let load = |images: &mut ImageStore| {
+        images.forget_changed();
+        images.load_or_stand_in(std::slice::from_ref(&material)).len()
+    };
+    assert_eq!(load(&mut images), 1);
+    let (checker, here) = (get(&images, "gone"), get(&images, "here"));
+    assert_eq!(checker.texel(0, 0), [1.0, 0.0, 1.0, 1.0]);
+    assert_eq!(checker.texel(checker.width() - 1, 0), [0.0, 0.0, 0.0, 1.0]);
+    assert_eq!(load(&mut images), 0, "told twice");
+    GrayImage::from_pixel(2, 2, Luma([255])).save(folder.path().join("gone.png")).unwrap();
+    assert_eq!(load(&mut images), 0);
+    assert_eq!(get(&images, "gone").texel(0, 0), [1.0; 4]);
+    assert!(std::sync::Arc::ptr_eq(&get(&images, "here"), &here));
+    assert_eq!(images.images().len(), 2);
+    std::fs::remove_file(folder.path().join("gone.png")).unwrap();
+    assert_eq!(load(&mut images), 1);
+    assert_eq!(get(&images, "gone").texel(0, 0), [1.0, 0.0, 1.0, 1.0]);
+}

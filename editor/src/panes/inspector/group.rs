@@ -106,7 +106,7 @@ fn name(ui: &mut egui::Ui, socket: Socket<'_>, what: &str, actions: &mut Vec<Act
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| socket.name.to_owned());
     let refused = if text == socket.name { None } else { socket.renamed(&text).err() };
     let field = TextEdit::singleline(&mut text).font(TextStyle::Monospace).desired_width(96.0);
-    let field = if refused.is_some() { field.text_color(theme::ERROR) } else { field };
+    let field = if refused.is_some() { field.text_color(theme::letters(theme::ERROR, ui.visuals())) } else { field };
     let help = refused.unwrap_or_else(|| "Its name in links and shaders; Enter takes it".to_owned());
     let response = ui.add(field).on_hover_text(help);
     named_text(&response, &text, &format!("Name of {what}"));

@@ -151,7 +151,8 @@ fn widget(
     let SocketType::Value(ty) = slot.ty else { return };
     let style = Style { range: slot.input.range, unit: &slot.input.unit, is_whole: ty == Type::I32 };
     let Some(mut parts) = value.components_as(ty) else {
-        ui.colored_label(theme::ERROR, "this value does not fit").on_hover_text("Reset it in the menu at the right");
+        ui.colored_label(theme::letters(theme::ERROR, ui.visuals()), "this value does not fit")
+            .on_hover_text("Reset it in the menu at the right");
         return;
     };
     let is_color = slot.is_color && parts.len() >= 3;

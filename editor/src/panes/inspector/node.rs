@@ -124,6 +124,6 @@ fn problems(ui: &mut egui::Ui, session: &Session, id: &NodeId) {
             Some(socket) => format!("{}: {}", in_words(socket), problem.message),
             None => problem.message.clone(),
         };
-        ui.colored_label(color, text);
+        ui.colored_label(theme::letters(color, ui.visuals()), text);
     }
 }

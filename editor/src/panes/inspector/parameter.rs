@@ -67,7 +67,7 @@ fn name(
     let field = TextEdit::singleline(&mut text)
         .desired_width((ui.available_width() * 0.45 - 8.0).max(80.0))
         .font(egui::TextStyle::Monospace);
-    let field = if fits { field } else { field.text_color(theme::ERROR) };
+    let field = if fits { field } else { field.text_color(theme::letters(theme::ERROR, ui.visuals())) };
     let response = ui.add(field).on_hover_text(match (fits, taken) {
         (true, _) => "Name in shaders and on the command line",
         (_, true) => "Another parameter has this name",

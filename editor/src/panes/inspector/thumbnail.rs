@@ -35,6 +35,8 @@ pub(crate) enum Thumbnail {
 pub(crate) struct Thumbnails {
     worker: Option<Worker<Vec<PathBuf>, Vec<Made>>>,
     known: HashMap<PathBuf, Thumbnail>,
+    /// The state of the files that they are of.
+    pictures: u64,
 }
 
 impl std::fmt::Debug for Thumbnails {
@@ -50,7 +52,7 @@ impl Thumbnails {
             let made = paths.into_iter().map(|path| Made { result: read(&path), path });
             Some(made.collect::<Vec<_>>())
         });
-        Thumbnails { worker: worker.ok(), known: HashMap::new() }
+        Thumbnails { worker: worker.ok(), known: HashMap::new(), pictures: 0 }
     }
 
     /// Whether nothing is being read.
@@ -58,8 +60,8 @@ impl Thumbnails {
         self.worker.as_ref().is_none_or(|worker| !worker.is_busy())
     }
 
-    /// Takes what was read.
-    pub(crate) fn hear(&mut self, context: &egui::Context) {
+    /// Takes what was read. With another number files have changed, and all are read again.
+    pub(crate) fn hear(&mut self, context: &egui::Context, pictures: u64) {
         while let Some(made) = self.worker.as_ref().and_then(Worker::poll) {
             for Made { path, result } in made {
                 let thumbnail = match result {
@@ -70,6 +72,9 @@ impl Thumbnails {
                 };
                 self.known.insert(path, thumbnail);
             }
+        }
+        if std::mem::replace(&mut self.pictures, pictures) != pictures {
+            self.known.clear();
         }
     }
 

@@ -274,11 +274,12 @@ impl Viewport {
         caption(ui, bar.left_top() + egui::vec2(0.0, -3.0), egui::Align2::LEFT_BOTTOM, "0".to_owned());
         caption(ui, bar.right_top() + egui::vec2(0.0, -3.0), egui::Align2::RIGHT_BOTTOM, format!("FLIP {scale}"));
         let figures = format!(
-            "FLIP mean {:.4}, largest {:.3} · rmse {:.4} · A is {:+.2} % brighter",
+            "FLIP mean {:.4}, largest {:.3} · rmse {:.4} · A is {:.2} % {}",
             found.mean,
             found.largest,
             found.rmse,
-            100.0 * found.brighter
+            100.0 * found.brighter.abs(),
+            if found.brighter < 0.0 { "darker" } else { "brighter" }
         );
         caption(ui, rect.left_bottom() + egui::vec2(10.0, -8.0), egui::Align2::LEFT_BOTTOM, figures.clone());
         let response = ui.interact(bar.expand(4.0), ui.id().with("scale"), Sense::click());
