@@ -8,13 +8,13 @@
 /// - return: 0 to 1
 /// @vertex node_procedural_stripes_vertex
 fn node_procedural_stripes(uv: vec2f, count: f32, width: f32) -> f32 {
-    let x = uv.x * count;
+    let x = held1(uv.x * count);
     return pulse_wave(x, fwidth(x), width);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_stripes_vertex(uv: vec2f, count: f32, width: f32) -> f32 {
-    return pulse_wave(uv.x * count, 0.0, width);
+    return pulse_wave(held1(uv.x * count), 0.0, width);
 }
 
 /// Grid
@@ -27,13 +27,13 @@ fn node_procedural_stripes_vertex(uv: vec2f, count: f32, width: f32) -> f32 {
 /// - return: 0 to 1
 /// @vertex node_procedural_grid_vertex
 fn node_procedural_grid(uv: vec2f, count: vec2f, width: f32) -> f32 {
-    let p = uv * count;
+    let p = held2(uv * count);
     return grid_share(p, fwidth(p), width);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_grid_vertex(uv: vec2f, count: vec2f, width: f32) -> f32 {
-    return grid_share(uv * count, vec2f(0.0), width);
+    return grid_share(held2(uv * count), vec2f(0.0), width);
 }
 
 /// The part of a window that lines around unit squares cover.
@@ -54,13 +54,13 @@ fn grid_share(p: vec2f, window: vec2f, width: f32) -> f32 {
 /// - return: 0 to 1
 /// @vertex node_procedural_dots_vertex
 fn node_procedural_dots(uv: vec2f, count: vec2f, radius: f32, softness: f32) -> f32 {
-    let p = uv * count;
+    let p = held2(uv * count);
     return dots_share(p, squared_footprint2(p), radius, softness);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_dots_vertex(uv: vec2f, count: vec2f, radius: f32, softness: f32) -> f32 {
-    return dots_share(uv * count, 0.0, radius, softness);
+    return dots_share(held2(uv * count), 0.0, radius, softness);
 }
 
 /// The part of a window that dots in unit squares cover.

@@ -139,8 +139,8 @@ fn patterns_are_finite_for_every_finite_input() {
                 let wide = vec![f32::MAX; node.defaults().len()];
                 node.call::<f32>(&[f32::NAN, f32::INFINITY].map(|x| vec![x; wide.len()]));
                 let found = [node.call::<f32>(&rows), node.run::<f32>(&rows, Some((&wide, &wide)))];
-                let all = found.iter().flat_map(|found| rows.iter().zip(found));
-                let Some((row, found)) = all.into_iter().find(|(_, found)| found.iter().any(|x| !x.is_finite())) else {
+                let mut all = found.iter().flat_map(|found| rows.iter().zip(found));
+                let Some((row, found)) = all.find(|(_, found)| found.iter().any(|x| !x.is_finite())) else {
                     continue;
                 };
                 if category == "procedural" {

@@ -28,11 +28,11 @@ fn above(n: i32, minus: i32, parameters: &str) -> Document {
 
 /// The bytes of the parameters.
 fn parameters(document: &Document, shader: &Shader) -> Vec<u8> {
-    let blocks = shader.reflection.bindings.iter().filter_map(|binding| match &binding.resource {
+    let mut blocks = shader.reflection.bindings.iter().filter_map(|binding| match &binding.resource {
         Resource::Uniform(block) if binding.group == 1 => Some(block),
         _ => None,
     });
-    let block = blocks.into_iter().next().expect("a block of parameters");
+    let block = blocks.next().expect("a block of parameters");
     let fill = |source: &_, numbers: &mut _| fill_input(document, Library::standard(), block, source, numbers);
     block.pack(fill).unwrap_or_else(|e| panic!("{e}"))
 }
