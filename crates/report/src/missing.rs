@@ -91,7 +91,7 @@ fn no_time(row: &Row, figure: &str) -> &'static str {
         ("shaders", _) => "a shader is counted, and timed on the device",
         ("ibl", "prefilter") => "a bake is timed as a whole, and shared out among its texels in cost_batch_ns",
         ("precision", _) => "its arithmetic is what is looked at",
-        ("peers", _) if row.instructions.is_some() => "a shader is counted",
+        ("peers", _) => "a shader is counted, and other work has a time of one kind",
         (_, "normal_frame") => "the methods are timed under the term normal",
         ("energy", "dfg") if !is_batch => "a lookup of any table takes what the row table says",
         _ if is_batch => "it has no form for batches",
@@ -102,7 +102,7 @@ fn no_time(row: &Row, figure: &str) -> &'static str {
 fn no_shader(row: &Row, figure: &str, device: bool) -> &'static str {
     match row.part.as_str() {
         "pictures" if row.method == "cpu" => "the processor draws it",
-        "precision" | "peers" => "it is no whole shader of ours, or was not drawn",
+        "precision" | "peers" => "it is no whole shader, or one that was not drawn",
         _ if !device && figure == "gpu_ns" => "no device was found",
         "shaders" if shaders::reads_no_file(row) => "the height map that it reads is no file, so that it is not drawn",
         "shaders" => "the device has no clock, or refused it",

@@ -203,7 +203,11 @@ fn chapter(term: &str, report: &Report, comparisons: &[Comparison<'_>]) -> Strin
 
 /// Whether a row only says what a shader costs.
 fn is_count(row: &Row) -> bool {
-    row.instructions.is_some() && row.error_rms.is_none() && row.error_max.is_none() && row.cost_ns.is_none()
+    row.term != "peer"
+        && row.instructions.is_some()
+        && row.error_rms.is_none()
+        && row.error_max.is_none()
+        && row.cost_ns.is_none()
 }
 
 /// Text with names in backticks, as HTML.

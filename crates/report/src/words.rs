@@ -99,7 +99,7 @@ pub fn finding(comparison: &Comparison<'_>) -> String {
     let alike = if comparison.cost.is_time() { ALIKE } else { 1.0 };
     let fast = front().filter(|entry| entry.cost <= alike * least);
     let cheapest = fast.min_by(|a, b| a.rms.total_cmp(&b.rms)).unwrap_or(best);
-    if std::ptr::eq(cheapest, best) {
+    if std::ptr::eq(cheapest, best) || (comparison.cost.is_time() && best.cost <= alike * cheapest.cost) {
         // Times that spread over each other are alike, whichever number is smaller.
         let beyond =
             if comparison.entries.iter().any(|entry| entry.cost < best.cost) { " beyond the spread" } else { "" };
@@ -258,5 +258,10 @@ mod tests {
         // Nobody is 1.0 times as fast.
         let rows = [row("good", 0.001, 1.04), row("poor", 0.8, 1.0)];
         assert_eq!(found(&rows), "`good` errs least, 0.10 %, and nothing is cheaper beyond the spread");
+        let rows = [row("least", 0.24, 1.1), row("next", 0.246, 1.05), row("poor", 0.8, 1.04)];
+        assert_eq!(
+            found(&rows),
+            "`next` errs 25 %, next to the least there is, and nothing is cheaper beyond the spread"
+        );
     }
 }
