@@ -303,7 +303,7 @@ fn checker() -> Image {
     const FIELD: u32 = 16;
     const SIDE: u32 = 8 * FIELD;
     let texel = |place: u32| {
-        let is_bright = (place % SIDE / FIELD + place / SIDE / FIELD) % 2 == 0;
+        let is_bright = (place % SIDE / FIELD + place / SIDE / FIELD).is_multiple_of(2);
         if is_bright { [255, 0, 255, 255] } else { [0, 0, 0, 255] }
     };
     let texels = Texels::U8((0..SIDE * SIDE).map(texel).collect());

@@ -68,17 +68,15 @@ fn errors_are_measured_against_the_reference() {
     window.get_by_role_and_label(Role::Button, "Accuracy").click();
     assert!(!wait_for_measuring(&mut window));
     let rows = ["as it is", "karis", "hdre"];
-    for change in [Some(0.1), None] {
-        settle(&mut window);
-        assert!(rows.iter().all(|row| window.query_by_label(row).is_some()));
-        assert!(window.query_by_label_contains("paths for each pixel").is_some());
-        assert!(window.query_by_label_contains("`Odd` is NaN or infinite at").is_some());
-        assert!(window.query_by_label_contains("has changed since").is_none());
-        let Some(height) = change else { break };
-        let edit = Edit::SetValue { socket: SocketRef::new("surface", "height"), value: Some(Value::Number(height)) };
-        window.state_mut().act(Action::edit("Set", edit));
-        assert!(wait_for_measuring(&mut window), "rows of an older state are not told");
-    }
+    settle(&mut window);
+    assert!(rows.iter().all(|row| window.query_by_label(row).is_some()));
+    assert!(window.query_by_label_contains("paths for each pixel").is_some());
+    assert!(window.query_by_label_contains("`Odd` is NaN or infinite at").is_some());
+    assert!(window.query_by_label_contains("has changed since").is_none());
+    let edit = Edit::SetValue { socket: SocketRef::new("surface", "height"), value: Some(Value::Number(0.1)) };
+    window.state_mut().act(Action::edit("Set", edit));
+    assert!(wait_for_measuring(&mut window), "rows of an older state are not told");
+    assert!(window.query_by_label_contains("has changed since").is_none());
 }
 
 #[test]

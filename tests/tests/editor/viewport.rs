@@ -236,7 +236,7 @@ fn a_picture_that_is_missing_leaves_the_rest_to_be_seen() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("missing.material.json");
     let text = r#"{"halfvector": 1, "name": "Missing", "nodes": {
-        "gone": {"node": "textures/image", "values": {"image": {"file": "gone.png"}}},
+        "gone": {"node": "textures/image", "values": {"image": {"file": "gone.png", "color_space": "srgb"}}},
         "surface": {"node": "surface/surface", "values": {"base_color": [0, 0, 0], "specular": 0}}},
         "links": [{"from": "gone.color", "to": "surface.emission"}]}"#;
     std::fs::write(&file, text).expect("written");
