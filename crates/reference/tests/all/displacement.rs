@@ -152,8 +152,8 @@ fn waves_by_height_are_waves_of_the_mesh() {
     };
     let flat = || relief("0.0 * p.x", "vec3f()");
     let cases = [
-        ("plane", relief("0.1 * sin(9.0 * p.x)", "vec3f()"), &plane, moved(&plane, wavy), 0.02),
-        ("sphere", relief("0.3 * sin(6.0 * o.y)", "vec3f()"), &ball, moved(&ball, rings), 0.05),
+        ("plane", relief("0.1 * sin(9.0 * p.x)", "vec3f()"), &plane, moved(&plane, wavy), 0.01),
+        ("sphere", relief("0.3 * sin(6.0 * o.y)", "vec3f()"), &ball, moved(&ball, rings), 0.02),
     ];
     for (name, document, mesh, shaped, bound) in cases {
         let by_height = lit(document, mesh.clone());
