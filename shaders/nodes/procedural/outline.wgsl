@@ -159,15 +159,15 @@ fn line_distance(p: vec2f, a: vec2f, b: vec2f, width: f32) -> f32 {
 /// - softness: width of the edge [0; 0..0.5]
 /// @vertex node_procedural_cloverleaf_vertex
 fn node_procedural_cloverleaf(uv: vec2f, center: vec2f, radius: f32, softness: f32) -> OutlineOutputs {
-    let d = cloverleaf_distance(uv - center, radius);
+    let d = cloverleaf_distance(held2(uv - center), radius);
     // Half the side of the square of the same area: circles of half the radius, less what they share, cover (pi/2 + 1) radius^2.
     let half_side = vec2f(0.8017 * radius);
-    return OutlineOutputs(outline_share(d, softness, uv - center, half_side, sqrt(squared_footprint2(uv))), d);
+    return OutlineOutputs(outline_share(d, softness, held2(uv - center), half_side, sqrt(squared_footprint2(uv))), d);
 }
 
 /// The vertex stage has no pixels: the pattern at the point.
 fn node_procedural_cloverleaf_vertex(uv: vec2f, center: vec2f, radius: f32, softness: f32) -> OutlineOutputs {
-    let d = cloverleaf_distance(uv - center, radius);
+    let d = cloverleaf_distance(held2(uv - center), radius);
     return OutlineOutputs(inside_share(d, softness, 0.0), d);
 }
 
