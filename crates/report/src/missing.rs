@@ -19,8 +19,11 @@ pub struct Null {
     pub why: String,
 }
 
+/// Whether a row lacks a figure.
+type Lacks = fn(&Row) -> bool;
+
 /// Figures that one would look for in every row.
-const FIGURES: [(&str, fn(&Row) -> bool); 8] = [
+const FIGURES: [(&str, Lacks); 8] = [
     ("error_rms", |row| row.error_rms.is_none()),
     ("error_max", |row| row.error_max.is_none()),
     ("at", |row| row.at.is_none()),

@@ -174,6 +174,6 @@ fn node_procedural_cloverleaf_vertex(uv: vec2f, center: vec2f, radius: f32, soft
 /// Signed distance to the four circles about the origin: by symmetry to the one on the nearer axis.
 fn cloverleaf_distance(p: vec2f, radius: f32) -> f32 {
     let q = abs(p);
-    let r = 0.5 * max(radius, 0.0);
+    let r = 0.5 * clamp(radius, 0.0, PATTERN_END);
     return length(vec2f(max(q.x, q.y) - r, min(q.x, q.y))) - r;
 }
