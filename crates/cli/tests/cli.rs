@@ -6,17 +6,21 @@
 mod bake;
 #[path = "cli/budget.rs"]
 mod budget;
+#[path = "cli/check.rs"]
+mod check;
 #[path = "cli/compare.rs"]
 mod compare;
 #[path = "cli/reference.rs"]
 mod reference;
+#[path = "cli/render.rs"]
+mod render;
 #[cfg(unix)]
 #[path = "cli/report.rs"]
 mod report;
 #[path = "cli/window.rs"]
 mod window;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
 const PLAIN: &str = r#"{"halfvector": 1, "name": "plain",
@@ -219,89 +223,6 @@ fn wrong_input_ends_with_1_and_says_where() {
     assert_eq!(folder.names(), before, "nothing is written");
 }
 
-#[test]
-fn check_tells_all_problems() {
-    let folder = Folder::new();
-    folder.write(
-        "bad.material.json",
-        r#"{"halfvector": 1, "name": "bad", "nodes": {
-            "surface": {"node": "surface/surface", "label": "Skin", "values": {"metallic": [1, 2], "shine": 3}},
-            "what": {"node": "math/nothing"}},
-          "links": [{"from": "what.out", "to": "surface.base_color"}]}"#,
-    );
-    let sound = folder.run(&["check", "plain.material.json"]).ends(0);
-    assert_eq!(sound.stdout.trim(), "no problems");
-    let empty = folder.run(&["check", "plain.material.json", "--format", "json"]).ends(0).json();
-    assert_eq!(empty, serde_json::json!({ "problems": [] }));
-
-    let text = folder.run(&["check", "plain.material.json", "bad.material.json"]).ends(3).stdout;
-    for words in ["bad.material.json", "Skin", "metallic", "shine", "math/nothing"] {
-        assert!(text.contains(words), "{words}: {text}");
-    }
-    let run = folder.run(&["check", "bad.material.json", "--format", "json"]).ends(3);
-    let problems = run.json();
-    let problems = problems["problems"].as_array().expect("a list");
-    assert!(problems.len() >= 3, "{problems:?}");
-    assert!(problems.iter().any(|p| p["node"] == "surface" && p["node_label"] == "Skin" && p["socket"] == "metallic"));
-
-    folder.write("cut.material.json", "{");
-    let cut = folder.run(&["check", "cut.material.json", "bad.material.json", "--format", "json"]).ends(1);
-    assert!(cut.json()["problems"].as_array().is_some_and(|list| list.len() > problems.len()));
-}
-
-/// What is said of many nodes alike is said of some, and the others are counted.
-#[test]
-fn equal_warnings_are_summed_up() {
-    let folder = Folder::new();
-    let dead: String = (0..49_000).map(|i| format!(r#","dead{i}": {{"node": "math/sin"}}"#)).collect();
-    folder.write(
-        "dead.material.json",
-        &format!(
-            r#"{{"halfvector": 1, "name": "dead", "nodes": {{"surface": {{"node": "surface/surface"}}{dead}}}, "links": []}}"#
-        ),
-    );
-    let text = folder.run(&["check", "--cost", "dead.material.json"]).ends(0).stdout;
-    let lines: Vec<_> = text.lines().filter(|line| line.contains("warning: ")).collect();
-    assert_eq!(lines.len(), 22, "{text}");
-    assert!(lines[20].contains("there are 39000 more warnings"), "{text}");
-    assert!(lines[21].contains("of 9980 nodes more: the node does not reach the surface"), "{text}");
-    let all = folder.run(&["check", "dead.material.json", "--format", "json"]).ends(0).json();
-    assert_eq!(all["problems"].as_array().map(Vec::len), Some(10_001));
-}
-
-/// Constants that compute no number are told at their node, like every other problem.
-#[test]
-fn a_constant_that_is_no_number_is_told_at_its_node() {
-    let folder = Folder::new();
-    folder.write(
-        "log.material.json",
-        r#"{"halfvector": 1, "name": "log", "nodes": {"surface": {"node": "surface/surface"},
-            "part": {"node": "math/multiply", "label": "Part", "values": {"a": 1e38, "b": 1e38}}},
-          "links": [{"from": "part.out", "to": "surface.metallic"}]}"#,
-    );
-    let text = folder.run(&["check", "log.material.json"]).ends(3).stdout;
-    assert_eq!(text.matches("error: ").count(), 1, "{text}");
-    assert!(text.starts_with("log.material.json: error: \u{201c}Part\u{201d} (part): "), "{text}");
-    let json = folder.run(&["check", "--format", "json", "log.material.json"]).ends(3).json();
-    assert!(json["problems"][0]["node"] == "part" && json["problems"][0]["node_label"] == "Part", "{json}");
-}
-
-/// A link to a node that is not there is no shader without what it was to feed.
-#[test]
-fn a_link_to_nothing_is_an_error() {
-    let folder = Folder::new();
-    folder.write(
-        "slip.material.json",
-        r#"{"halfvector": 1, "name": "slip", "nodes": {"surface": {"node": "surface/surface"},
-            "grain": {"node": "procedural/value_noise_2d"}},
-          "links": [{"from": "grain.out", "to": "surfcae.metallic"}]}"#,
-    );
-    let text = folder.run(&["check", "slip.material.json"]).ends(3).stdout;
-    assert!(text.contains("error: surfcae, metallic: a link from grain.out leads to `surfcae.metallic`"), "{text}");
-    folder.run(&["export", "slip.material.json", "--target", "wgsl", "-o", "x"]).ends(1).says("surfcae.metallic");
-    assert!(!folder.path("x").exists(), "nothing is written");
-}
-
 /// Names from documents reach the terminal as text, never as commands to it.
 #[test]
 fn a_terminal_is_sent_no_commands() {
@@ -486,182 +407,4 @@ fn an_interrupted_report_keeps_what_it_has_measured() {
     assert!(report["rows"].as_array().is_some_and(|rows| !rows.is_empty()), "{text}");
     assert!(std::fs::read_to_string(page).expect("a page").ends_with("</html>\n"), "the page is whole");
     assert!(!folder.path("out/ibl.csv").exists(), "the second part was not done");
-}
-
-#[test]
-fn render_writes_each_format_and_leaves_nothing_else() {
-    let folder = Folder::new();
-    let options = ["--size", "12x8", "--samples", "3", "--env", "white", "--set", "metallic=1"];
-    for name in ["a.png", "deep/er/a.exr", "a.hdr"] {
-        let mut arguments = vec!["render", "plain.material.json", "-o", name];
-        arguments.extend(options);
-        let run = folder.run(&arguments);
-        if run.lacks_gpu() {
-            return;
-        }
-        let run = run.ends(0).says("4 are taken instead of 3");
-        assert!(run.stdout.is_empty());
-        let picture = image::open(folder.path(name)).expect("a picture");
-        assert_eq!((picture.width(), picture.height()), (12, 8));
-    }
-    assert_eq!(folder.names(), ["a.hdr", "a.png", "deep", "plain.material.json"]);
-}
-
-#[test]
-fn alpha_is_straight_in_a_png() {
-    let folder = Folder::new();
-    let arguments = [
-        "render",
-        "plain.material.json",
-        "-o",
-        "a.png",
-        "--size",
-        "16x16",
-        "--env",
-        "white",
-        "--background",
-        "none",
-        "--set",
-        "base_color=1,1,1",
-        "--tone-map",
-        "none",
-    ];
-    let run = folder.run(&arguments);
-    if run.lacks_gpu() {
-        return;
-    }
-    run.ends(0);
-    let picture = image::open(folder.path("a.png")).expect("a picture").into_rgba8();
-    assert_eq!(picture.get_pixel(0, 0).0, [0; 4]);
-    assert_eq!(picture.get_pixel(8, 8)[3], 255);
-    let edge = picture.pixels().find(|p| (20..235).contains(&p[3])).expect("a pixel that is partly covered");
-    assert!(edge[0] > 200, "the colour is not darkened by the coverage: {edge:?}");
-}
-
-#[test]
-fn without_a_display_the_start_material_is_drawn() {
-    let folder = Folder::new();
-    let run = folder.run(&[]).says("there is no display");
-    assert!(folder.path("out/example.wgsl").is_file());
-    if run.lacks_gpu() {
-        return;
-    }
-    run.ends(0);
-    let picture = image::open(folder.path("out/example.png")).expect("a picture");
-    assert!(picture.width() >= 256);
-}
-
-/// Runs the program with no GPU to be found.
-fn without_a_driver(folder: &Folder, arguments: &[&str]) -> Run {
-    let nowhere = Path::new("/nonexistent");
-    let output = Command::new(env!("CARGO_BIN_EXE_halfvector"))
-        .args(arguments)
-        .current_dir(folder.0.path())
-        .env("VK_DRIVER_FILES", nowhere)
-        .env("VK_ICD_FILENAMES", nowhere)
-        .env("WGPU_BACKEND", "vulkan")
-        .output()
-        .expect("the program starts");
-    Run::new(arguments, &output)
-}
-
-#[test]
-fn without_a_gpu_the_cpu_draws_and_says_so() {
-    if !cfg!(target_os = "linux") {
-        return;
-    }
-    let folder = Folder::new();
-    let render = ["render", "plain.material.json", "--env", "white", "--size", "16x16", "-o"];
-    without_a_driver(&folder, &[&render[..], &["gpu.png", "--backend", "gpu"]].concat())
-        .ends(1)
-        .says("mesa-vulkan-drivers")
-        .says("--backend cpu");
-    assert_eq!(folder.names(), ["plain.material.json"]);
-    without_a_driver(&folder, &[&render[..], &["auto.png"]].concat())
-        .ends(0)
-        .says("drawn on the CPU")
-        .says("mesa-vulkan-drivers");
-    folder.run(&[&render[..], &["cpu.png", "--backend", "cpu"]].concat()).ends(0).says("drawn by the CPU");
-    let bytes = |name: &str| std::fs::read(folder.path(name)).expect("a picture");
-    assert_eq!(bytes("auto.png"), bytes("cpu.png"));
-}
-
-#[test]
-fn the_cost_of_nodes_is_told() {
-    let folder = Folder::new();
-    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
-    std::fs::copy(examples.join("custom-wgsl.material.json"), folder.path("own.material.json")).expect("copied");
-    let text = folder.run(&["check", "--cost", "own.material.json"]).ends(0).stdout;
-    assert!(text.contains("cost, estimated: each pixel ") && text.contains("`Tartan` (tartan): "), "{text}");
-    let json = folder.run(&["check", "--cost", "--format", "json", "own.material.json"]).ends(0).json();
-    let cost = &json["cost"][0];
-    let node = &cost["nodes"].as_array().expect("nodes")[0];
-    assert!(node["node"] == "colors" || node["node"] == "tartan", "{node}");
-    assert!(cost["fragment_total"].as_u64() > node["total"].as_u64(), "{cost}");
-    assert!(cost["per_turn"].is_boolean() && node["per_turn"].is_boolean(), "{cost}");
-
-    // Of many nodes the costliest are listed.
-    let sine = |i: usize| format!(r#""n{i}": {{"node": "math/sin"}}"#);
-    let link = |i: usize| format!(r#"{{"from": "n{i}.out", "to": "n{}.x"}}"#, i + 1);
-    folder.write(
-        "many.material.json",
-        &format!(
-            r#"{{"halfvector": 1, "name": "many", "nodes": {{"grain": {{"node": "procedural/value_noise_2d"}},
-                "surface": {{"node": "surface/surface"}}, {}}},
-              "links": [{}, {{"from": "grain.out", "to": "n0.x"}}, {{"from": "n29.out", "to": "surface.metallic"}}]}}"#,
-            (0..30).map(sine).collect::<Vec<_>>().join(","),
-            (0..29).map(link).collect::<Vec<_>>().join(",")
-        ),
-    );
-    let text = folder.run(&["check", "--cost", "many.material.json"]).ends(0).stdout;
-    assert_eq!(text.lines().count(), 22, "{text}");
-    assert!(text.contains("(grain): ") && text.contains("cost: 11 nodes more: 11 instructions together"), "{text}");
-    let json = folder.run(&["check", "--cost", "--format", "json", "many.material.json"]).ends(0).json();
-    assert_eq!(json["cost"][0]["nodes"].as_array().map(Vec::len), Some(31));
-}
-
-#[test]
-fn what_f32_gets_wrong_is_found_and_named() {
-    let folder = Folder::new();
-    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/unstable");
-    std::fs::copy(examples.join("cancellation.material.json"), folder.path("wrong.material.json")).expect("copied");
-    let run = folder.run(&["check", "--stability", "plain.material.json"]).ends(0);
-    assert_eq!(run.stdout, "no problems\n");
-    let steps = r#"{"halfvector": 1, "name": "Steps", "nodes": {"checker": {"node": "procedural/checker"}, "surface": {"node": "surface/surface"}},
-        "links": [{"from": "checker.out", "to": "surface.metallic"}]}"#;
-    std::fs::write(folder.path("steps.material.json"), steps).expect("written");
-    let run = folder.run(&["check", "--stability", "steps.material.json"]).ends(0);
-    assert!(
-        run.stdout.starts_with("steps.material.json: edges") && run.stdout.contains("\nno problems: edges are"),
-        "{}",
-        run.stdout
-    );
-    folder.run(&["check", "wrong.material.json"]).ends(0);
-    let run = folder.run(&["check", "--stability", "wrong.material.json"]).ends(3);
-    assert!(run.stdout.starts_with("wrong.material.json: unstable in f32:\n  node "), "{}", run.stdout);
-    assert!(run.stdout.contains("\n  `Back again`  culprit.out  "), "{}", run.stdout);
-    // Only what the node reads.
-    let place = run.stdout.lines().find(|line| line.starts_with("    at ")).unwrap_or_default();
-    assert!(place.starts_with("    at uv0.x = ") && !place.contains(','), "{}", run.stdout);
-    let run = folder.run(&["check", "--stability", "--format", "json", "wrong.material.json"]).ends(3);
-    let json = run.json();
-    assert_eq!(json["unstable"][0]["node"], "culprit");
-    assert!(json["edges"].is_array() && json["problems"].is_array() && json["f16"].is_null());
-    let run = folder.run(&["check", "--stability", "--f16", "--format", "json", "wrong.material.json"]).ends(3);
-    let json = run.json();
-    // A million is too large for f16: it goes wrong a node earlier. JSON has no infinity.
-    let half = &json["f16"]["unstable"][0];
-    assert!(half["node"] == "far" && half["f16"].is_null() && half["not_finite"].as_u64() > Some(0), "{json}");
-    assert!(json["f16"]["edges"].is_array());
-    let run = folder.run(&["check", "--stability", "--f16", "wrong.material.json"]).ends(3);
-    assert!(run.stdout.contains("unstable in f32") && run.stdout.contains("unstable in f16"), "{}", run.stdout);
-    folder.run(&["check", "--f16", "wrong.material.json"]).ends(2);
-    // A message of a file that cannot be read is one line.
-    std::fs::write(folder.path("cut.material.json"), "{\n").expect("written");
-    let json = folder.run(&["check", "--format", "json", "cut.material.json"]).ends(1).json();
-    let message = json["problems"][0]["message"].as_str().unwrap_or_default();
-    assert!(message.contains("line 2") && !message.contains('\n'), "{json}");
-    let run = folder.run(&["check", "--stability", "--format", "json", "steps.material.json"]).ends(0);
-    let edge = &run.json()["edges"][0];
-    assert!(edge["node"] == "checker" && edge["from"] != edge["to"] && edge["input"].is_object(), "{edge}");
 }
