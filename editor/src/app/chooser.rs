@@ -8,6 +8,7 @@ use egui_file_dialog::{FileDialog, Filter};
 use crate::action::Choose;
 use crate::app::Editor;
 use crate::app::files::Next;
+use crate::app::questions::Question;
 use crate::pictures;
 
 /// How the names of materials end.
@@ -80,8 +81,15 @@ impl Editor {
     fn chosen(&mut self, purpose: Choose, path: PathBuf) {
         match purpose {
             Choose::Open => self.ask(Next::Open(path)),
-            // The dialog has asked about a file that is there.
-            Choose::SaveAs => self.save_as(with_ending(path), true),
+            Choose::SaveAs => {
+                // The dialog has asked about a file that is there, but of the name that was typed.
+                let whole = with_ending(path.clone());
+                if whole != path && whole.exists() {
+                    self.files.question = Some(Question::Replace(whole));
+                } else {
+                    self.save_as(whole, true);
+                }
+            }
             Choose::Image(socket) => {
                 self.act(pictures::chosen(&self.session, &socket, &path));
             }

@@ -246,6 +246,15 @@ impl Editor {
                         self.files.outside = Some(Outside { read, is_shown: false });
                     }
                 }
+                Report::Gone(path) => {
+                    if self.session.file() == Some(path.as_path()) {
+                        self.session.lost_its_file();
+                        let path = path.display();
+                        self.messages.fail(format!(
+                            "{path} is gone: another program deleted or renamed it; saving writes it anew"
+                        ));
+                    }
+                }
                 Report::AlsoOpen(processes) => self.files.also_open = processes,
                 Report::Lost(lost) => {
                     self.files.lost.extend(lost);

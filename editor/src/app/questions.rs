@@ -17,6 +17,8 @@ pub(crate) enum Question {
     Unsaved(Next),
     /// Others have changed the file that is to be written.
     Overwrite(PathBuf),
+    /// Another file has the name that the material is to be saved under.
+    Replace(PathBuf),
     /// Windows that are gone have left unsaved work.
     Lost,
     /// The sheet of keys.
@@ -50,6 +52,7 @@ impl Editor {
             match question {
                 Question::Unsaved(next) => answer = self.ask_unsaved(ui, next),
                 Question::Overwrite(path) => answer = ask_overwrite(ui, path),
+                Question::Replace(path) => answer = ask_replace(ui, path),
                 Question::Lost => answer = self.ask_lost(ui),
                 Question::Keys => answer = crate::app::sheet::keys(ui).then_some(Answer::Cancel),
                 Question::About => answer = crate::app::sheet::about(ui).then_some(Answer::Cancel),
@@ -68,7 +71,7 @@ impl Editor {
         match (answer, question) {
             (Answer::Save, Some(Question::Unsaved(next))) => self.save_then(next),
             (Answer::Discard, Some(Question::Unsaved(next))) => self.go(next),
-            (Answer::Overwrite, Some(Question::Overwrite(path))) => self.save_as(path, true),
+            (Answer::Overwrite, Some(Question::Overwrite(path) | Question::Replace(path))) => self.save_as(path, true),
             (Answer::SaveAs, _) => self.choose(crate::action::Choose::SaveAs),
             (Answer::Reload, _) => {
                 self.cancel();
@@ -229,15 +232,28 @@ fn ask_overwrite(ui: &mut egui::Ui, path: &std::path::Path) -> Option<Answer> {
     buttons(
         ui,
         &[
-            ("Overwrite", "The other changes are lost", Answer::Overwrite),
             ("Save as", "Write to another file", Answer::SaveAs),
+            ("Overwrite", "The other changes are lost", Answer::Overwrite),
             ("Reload", "Take what stands in the file; changes made here are lost", Answer::Reload),
             ("Cancel", "Do nothing", Answer::Cancel),
         ],
     )
 }
 
-/// A row of buttons; the first one answers to Enter.
+fn ask_replace(ui: &mut egui::Ui, path: &std::path::Path) -> Option<Answer> {
+    ui.heading("Replace the file?");
+    ui.label(format!("{} is there already.", path.display()));
+    buttons(
+        ui,
+        &[
+            ("Save as", "Choose another name", Answer::SaveAs),
+            ("Replace", "What stands in the file is lost", Answer::Overwrite),
+            ("Cancel", "Do nothing", Answer::Cancel),
+        ],
+    )
+}
+
+/// A row of buttons; the first one answers to Enter: never what loses something.
 fn buttons(ui: &mut egui::Ui, answers: &[(&str, &str, Answer)]) -> Option<Answer> {
     ui.add_space(12.0);
     ui.horizontal(|ui| {

@@ -78,6 +78,8 @@ pub(crate) enum Report {
     Saved(PathBuf, Written, Result<(), SaveFault>),
     /// Others have changed the open file: what stands there now, or why that cannot be read.
     Changed(PathBuf, Result<Loaded, String>),
+    /// The open file is not there any more.
+    Gone(PathBuf),
     /// Processes of other windows that have the open file open too.
     AlsoOpen(Vec<u32>),
     /// Unsaved work of windows that are gone.
@@ -176,18 +178,20 @@ struct Watched {
     seen: u64,
     /// Time and size of the file when it was seen last.
     stamp: Option<(SystemTime, u64)>,
+    /// How often in a row it was not there: a program that writes it anew may delete it for a moment.
+    misses: u32,
 }
 
 impl Watched {
     fn new(path: PathBuf, bytes: &[u8]) -> Watched {
         let hash = hash(bytes);
-        Watched { stamp: stamp(&path), real: real(&path), path, known: hash, seen: hash }
+        Watched { stamp: stamp(&path), real: real(&path), path, known: hash, seen: hash, misses: 0 }
     }
 
     /// A file that is looked at as soon as there is time: it may have been changed since.
     fn since(path: PathBuf, known: Option<u64>) -> Watched {
         let known = known.or_else(|| std::fs::read(&path).ok().map(|bytes| hash(&bytes))).unwrap_or_default();
-        Watched { stamp: None, real: real(&path), path, known, seen: known }
+        Watched { stamp: None, real: real(&path), path, known, seen: known, misses: 0 }
     }
 }
 
@@ -323,7 +327,12 @@ impl Room {
     fn look(&mut self) {
         let Some(watched) = &mut self.watched else { return };
         let stamp = stamp(&watched.path);
-        if stamp.is_some() && stamp != watched.stamp {
+        watched.misses = if stamp.is_none() && watched.stamp.is_some() { watched.misses + 1 } else { 0 };
+        if watched.misses > 1 {
+            (watched.stamp, watched.misses) = (None, 0);
+            let path = watched.path.clone();
+            self.tell(Report::Gone(path));
+        } else if stamp.is_some() && stamp != watched.stamp {
             watched.stamp = stamp;
             if let Ok(bytes) = std::fs::read(&watched.path) {
                 let now = hash(&bytes);

@@ -256,6 +256,33 @@ fn a_number_is_written_on_its_card() {
     assert_eq!(value, Some(&halfvector_graph::value::Value::Number(0.25)));
 }
 
+/// To look at a value changes nothing.
+#[test]
+fn a_number_that_was_opened_and_left_is_not_set() {
+    let mut window = window();
+    window.get_by_label("Value metallic of Surface").click();
+    window.run_steps(3);
+    key(&mut window, egui::Modifiers::NONE, egui::Key::Enter);
+    assert_eq!(document(&window).graph.value(&SocketRef::new("surface", "metallic")), None);
+    assert_eq!(window.state().session().steps()[0], None);
+}
+
+#[test]
+fn escape_takes_a_drag_back() {
+    let mut window = window();
+    let first = text(&window);
+    for (from, way) in [
+        (center(&window, "Value metallic of Surface"), egui::vec2(20.0, 0.0)),
+        (center(&window, "Node Rust grain"), egui::vec2(60.0, 40.0)),
+    ] {
+        hold(&mut window, from, from + way);
+        key(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
+        press(&mut window, from + way, false, egui::Modifiers::NONE);
+        window.run_steps(3);
+        assert_eq!(text(&window), first);
+    }
+}
+
 #[test]
 fn undo_all_and_redo_all_give_the_same_documents() {
     let mut window = window();

@@ -343,6 +343,20 @@ fn a_change_by_others_is_offered_and_never_overwritten_unasked() {
 }
 
 #[test]
+fn a_file_that_is_gone_is_told_and_its_material_is_unsaved() {
+    let place = Place::new();
+    let mut harness = place.open();
+    assert!(!harness.state().session().is_unsaved());
+    std::fs::remove_file(place.file()).unwrap();
+    wait_for(&mut harness, "the loss", |harness| harness.state().session().is_unsaved());
+    assert!(harness.query_all_by_label_contains("is gone").next().is_some());
+    harness.state_mut().act(Action::Save);
+    settle(&mut harness);
+    assert_eq!(place.read().name, "Worn enamel");
+    assert!(!harness.state().session().is_unsaved());
+}
+
+#[test]
 fn two_windows_on_one_file_notice_each_other() {
     let place = Place::new();
     let mut first = place.open();

@@ -248,6 +248,8 @@ fn refuse_words(text: &str, code: &[Token]) -> Result<(), CodeError> {
                     continue;
                 }
             }
+            // Of what is inferred nobody knows the size: four of four of four ... fill the memory in a few lines.
+            "array" if word(i + 1) == "(" => "write the array's type: `array<f32, 3>(1.0, 2.0, 3.0)`",
             _ => continue,
         };
         // `x.loop` is no loop, but WGSL has no such member either.
@@ -314,10 +316,13 @@ fn main_function(id: &str, text: &str, items: &[Item]) -> Result<String, CodeErr
     main.ok_or_else(|| error_at(text, 0, wanted))
 }
 
-/// The names that the items have in a shader, by those in the text.
+/// The names that the items have in a shader, by those in the text. The number of an id's underscores stands before it, where it has
+/// any, so that `b_c` of `a` and `c` of `a_b` differ.
 fn new_names<'i>(id: &str, items: &'i [Item], main: &str) -> HashMap<&'i str, String> {
+    let underscores = id.matches('_').count();
+    let prefix = if underscores == 0 { format!("custom_{id}") } else { format!("custom{underscores}_{id}") };
     let new = |item: &'i Item| {
-        let name = if item.name == main { format!("node_custom_{id}") } else { format!("custom_{id}_{}", item.name) };
+        let name = if item.name == main { format!("node_custom_{id}") } else { format!("{prefix}_{}", item.name) };
         (item.name.as_str(), name)
     };
     items.iter().map(new).collect()

@@ -222,7 +222,13 @@ fn changes(text: &str, code: &[Token], at: usize) -> bool {
         i.is_some_and(|token| token.kind != TokenKind::Punctuation || matches!(token.text(text), ")" | "]"))
             && !matches!(i.map_or("", |token| token.text(text)), "return")
     };
-    let address = before(first) == "&" && !is_operand(first.checked_sub(2).and_then(|i| code.get(i)));
+    // `&&` takes no address; what a third one does is its own.
+    let mut row = 0;
+    while before(first - row) == "&" && (row == 0 || code[first - row - 1].end == code[first - row].start) {
+        row += 1;
+    }
+    let is_logical = row > 0 && row % 2 == 0;
+    let address = before(first) == "&" && !is_logical && !is_operand(first.checked_sub(2).and_then(|i| code.get(i)));
     let assigned = match (word(last + 1), word(last + 2), word(last + 3)) {
         ("=", next, _) => next != "=",
         ("+" | "-" | "*" | "/" | "%" | "&" | "|" | "^", "=", _) => true,

@@ -143,6 +143,7 @@ fn what_reaches_beyond_a_node_is_refused() {
         ("fn g() -> array<array<f32, 4>, 4> { return array<array<f32, 4>, 4>(); }\n", "an array holds"),
         ("const A = array<f32, 1000000000>();\n", "at most 256"),
         ("const A = array<f32, 4 * 4>();\n", "at most 256"),
+        ("const B = array(1.0, 2.0);\nconst A = array(B, B, B, B);\n", "write the array's type"),
     ] {
         refused(&text("return x;", beside), part);
     }
@@ -184,6 +185,8 @@ fn what_need_not_end_is_refused() {
         ("for (var i = 0; i < 10; i++) { let p = & ((i)); *p = 0; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { let p = &i; *p = 0; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { if x > 0.0 { i <<= 0u; } }\nreturn x;", "counter is changed"),
+        ("for (var i = 0; i < 10; i++) { let p = true && &i; }\nreturn x;", "counter is changed"),
+        ("for (var i = 0; i < 10; i++) { let p = true &&&i; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 1000000; i++) { }\nreturn x;", "turns of loops and calls"),
         ("for (var i = 0; i < 2147483647; i += 1048576) { }\nreturn x;", COUNTED),
         ("for (var i = 0; i < 8; i += 2147483647) { }\nreturn x;", COUNTED),
@@ -207,6 +210,8 @@ fn what_need_not_end_is_refused() {
     // What counts is not refused.
     let counted = "var s = 0.0;\nfor (var i: u32 = 1u; i <= 8u; i += 2u) { let a = (i) & 3u; if (i) == 7u { s += f32((i) + a) - (f32(i)); } if i == 2u { continue; } s += f32(a - i); }\nfor (var j = 0; j < 4; j++) { s += x; }\nreturn s;";
     assert!(read_function("test", &text(counted, "")).is_ok(), "{:?}", read_function("test", &text(counted, "")));
+    let asked = "var s = 0.0;\nfor (var i = 0; i < 8; i++) { if (x > 0.5 && i > 3) || (x < 0.1&&i == 2) { s += x; } }\nreturn s;";
+    assert!(read_function("test", &text(asked, "")).is_ok(), "{:?}", read_function("test", &text(asked, "")));
     for (head, turns) in [
         ("var j = -1; j <= 1; j++", 3),
         ("var j = 8; j > 0; j -= 3", 3),
@@ -283,6 +288,21 @@ fn hostile_texts_are_refused_at_once() {
     let chain = (1..1000).map(|i| format!("fn g{i}(x: f32) -> f32 {{ return g{}(x); }}\n", i - 1)).collect::<String>();
     let first = "fn g0(x: f32) -> f32 { return x; }\n";
     let _ = read_function("test", &text("return g999(x);", &format!("{first}{chain}")));
+}
+
+/// However underscores stand in ids and names, two items of two functions have two names.
+#[test]
+fn no_two_functions_share_a_name() {
+    let of = |id: &str, beside: &str, call: &str| {
+        let source = text(&format!("return {call}(x);"), &format!("fn {beside}(x: f32) -> f32 {{ return x; }}\n"));
+        let source = source.replace("custom/test", &format!("custom/{id}"));
+        let function = read_function(id, &source).unwrap_or_else(|error| panic!("{id}: {error}"));
+        let name = function.source.split("fn ").nth(1).and_then(|rest| rest.split('(').next()).map(str::to_owned);
+        name.unwrap_or_default()
+    };
+    let names = [of("b", "c_a", "c_a"), of("b_c", "a", "a"), of("b_c_a", "d", "d"), of("b", "c_a_d", "c_a_d")];
+    let distinct: std::collections::BTreeSet<_> = names.iter().collect();
+    assert_eq!(distinct.len(), names.len(), "{names:?}");
 }
 
 #[test]

@@ -17,6 +17,8 @@ pub(super) enum Editing {
     Numbers {
         socket: SocketRef,
         text: String,
+        /// As it was: what is not changed sets nothing.
+        before: String,
         count: usize,
         is_new: bool,
     },
@@ -59,10 +61,12 @@ impl Canvas {
         let socket = SocketRef::new(&card.id, &row.name);
         match &row.field {
             Field::Number { value, .. } => {
-                self.editing = Some(Editing::Numbers { socket, text: value.to_string(), count: 1, is_new: true });
+                let text = value.to_string();
+                self.editing = Some(Editing::Numbers { socket, before: text.clone(), text, count: 1, is_new: true });
             }
             Field::Vector { text, count } => {
-                self.editing = Some(Editing::Numbers { socket, text: text.clone(), count: *count, is_new: true });
+                let (text, before, count) = (text.clone(), text.clone(), *count);
+                self.editing = Some(Editing::Numbers { socket, text, before, count, is_new: true });
             }
             Field::Color(color) => {
                 // The picker goes up to 1; what is brighter keeps its brightness.
@@ -89,11 +93,14 @@ impl Canvas {
     pub(super) fn fields(&mut self, ui: &mut egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) {
         let Some(mut editing) = self.editing.take() else { return };
         let is_open = match &mut editing {
-            Editing::Numbers { socket, text, count, is_new } => {
+            Editing::Numbers { socket, text, before, count, is_new } => {
                 let Some(rect) = place(sheet, socket) else { return };
                 let rect = desk.lens.rect_to_screen(rect).expand(2.0);
                 let (is_open, is_done) = write(ui, rect, text, std::mem::take(is_new), desk, "Value");
-                if is_done && let Some(value) = parsed(text, *count) {
+                if is_done
+                    && text != before
+                    && let Some(value) = parsed(text, *count)
+                {
                     let edit = Edit::SetValue { socket: socket.clone(), value: Some(value) };
                     desk.make(format!("Set {}", socket.socket), edit);
                 }

@@ -129,7 +129,11 @@ impl Canvas {
         if response.dragged() {
             self.go_on(ui, response, desk, sheet, at);
         }
-        if response.drag_stopped() {
+        // Escape ends a drag of egui's, too.
+        if response.drag_stopped() && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
+        {
+            self.cancel(desk);
+        } else if response.drag_stopped() {
             self.finish(ui, desk, sheet, at);
         }
         if response.clicked_by(PointerButton::Primary) {
