@@ -19,17 +19,36 @@ pub(crate) fn steadier(rows: &[&Row]) -> Cost {
     if median(spreads) <= STEADY { Cost::Device } else { Cost::Instructions }
 }
 
+/// A method, and what it costs.
+type Taken<'c, 'a> = (&'c Entry<'a>, f64);
+
+/// Those that no other of them beats.
+fn unbeaten<'c, 'a>(taken: &[Taken<'c, 'a>], cost: Cost) -> Vec<Taken<'c, 'a>> {
+    let figures: Vec<_> = taken.iter().map(|&(entry, spent)| (entry.rms, spent, cost.spread(entry.row))).collect();
+    taken.iter().zip(front(&figures)).filter(|(_, front)| *front).map(|(taken, _)| *taken).collect()
+}
+
+/// The cheapest of those within a limit of error.
+fn cheapest<'c, 'a>(taken: &[Taken<'c, 'a>], limit: f64) -> Option<&'c Entry<'a>> {
+    let within = taken.iter().filter(|(entry, _)| entry.rms <= limit);
+    within.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(entry, _)| *entry)
+}
+
 /// Of the methods within a limit of error that take about as long as the cheapest, that which reads the least memory: what a phone's
-/// battery pays for. None where a method's memory is not known, or none keeps the limit.
-fn smallest<'c, 'a>(taken: &[(&'c Entry<'a>, f64)], limit: f64) -> Option<&'c Entry<'a>> {
-    let bytes = |entry: &Entry<'_>| entry.row.bytes;
-    if taken.iter().any(|(entry, _)| bytes(entry).is_none()) {
+/// battery pays for. Of methods that read as little it is the cheapest that no other beats. None where a method's memory is not known,
+/// or none keeps the limit.
+fn smallest<'c, 'a>(taken: &[Taken<'c, 'a>], cost: Cost, limit: f64) -> Option<&'c Entry<'a>> {
+    if taken.iter().any(|(entry, _)| entry.row.bytes.is_none()) {
         return None;
     }
-    let within = || taken.iter().filter(|(entry, _)| entry.rms <= limit);
-    let least = within().map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
-    let alike = within().filter(|(_, cost)| *cost <= NEARLY * least);
-    alike.min_by(|a, b| bytes(a.0).cmp(&bytes(b.0)).then(a.1.total_cmp(&b.1))).map(|(entry, _)| *entry)
+    let within = || taken.iter().copied().filter(|(entry, _)| entry.rms <= limit);
+    let fastest = within().map(|(_, spent)| spent).fold(f64::INFINITY, f64::min);
+    let nearly = within().filter(|(_, spent)| *spent <= NEARLY * fastest);
+    let least = nearly.filter_map(|(entry, _)| entry.row.bytes).min()?;
+    // What reads less still takes longer than that, and is weighed, too: nothing is taken that it beats.
+    let small: Vec<Taken<'c, 'a>> =
+        within().filter(|(entry, _)| entry.row.bytes.is_some_and(|bytes| bytes <= least)).collect();
+    cheapest(&unbeaten(&small, cost), limit)
 }
 
 /// What to take within a budget.
@@ -88,25 +107,18 @@ impl<'a> Comparison<'a> {
     fn pick(&self, budget: Budget, cost: Cost, of: impl Fn(&Entry<'a>) -> bool) -> Option<&Entry<'a>> {
         let spent = |entry: &Entry<'a>| if cost == self.cost { Some(entry.cost) } else { cost.of(entry.row) };
         let taken = self.entries.iter().filter(|entry| of(entry));
-        let taken: Vec<(&Entry<'a>, f64)> = taken.filter_map(|entry| Some((entry, spent(entry)?))).collect();
-        let figures: Vec<_> = taken.iter().map(|&(entry, spent)| (entry.rms, spent, cost.spread(entry.row))).collect();
-        let kept = front(&figures);
-        let front: Vec<(&Entry<'a>, f64)> =
-            taken.iter().zip(kept).filter(|(_, front)| *front).map(|(entry, _)| *entry).collect();
+        let taken: Vec<Taken<'_, 'a>> = taken.filter_map(|entry| Some((entry, spent(entry)?))).collect();
+        let front = unbeaten(&taken, cost);
         // Entries stand in the order of their errors.
         let (best, _) = *front.first()?;
-        let cheapest = |limit: f64| {
-            let within = front.iter().filter(|(entry, _)| entry.rms <= limit);
-            within.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(entry, _)| *entry)
-        };
-        let film = || cheapest((1.05 * best.rms).max(self.unit.limit(Budget::Film))).unwrap_or(best);
+        let film = || cheapest(&front, (1.05 * best.rms).max(self.unit.limit(Budget::Film))).unwrap_or(best);
         match budget {
             Budget::Film => Some(film()),
             Budget::Mobile => {
                 let limit = self.unit.limit(budget);
-                Some(smallest(&taken, limit).or_else(|| cheapest(limit)).unwrap_or_else(film))
+                Some(smallest(&taken, cost, limit).or_else(|| cheapest(&front, limit)).unwrap_or_else(film))
             }
-            Budget::Desktop => Some(cheapest(self.unit.limit(budget)).unwrap_or_else(film)),
+            Budget::Desktop => Some(cheapest(&front, self.unit.limit(budget)).unwrap_or_else(film)),
         }
     }
 
@@ -156,6 +168,27 @@ mod tests {
         let found = comparisons(&rows);
         let chosen = Budget::ALL.map(|budget| found[0].choice(budget).row.method.as_str());
         assert_eq!(chosen, ["packed", "wide", "wide"]);
+    }
+
+    /// Of methods that read the same memory and take as long, within their spread, a phone takes the more accurate one.
+    #[test]
+    fn of_the_same_memory_a_phone_takes_the_more_accurate() {
+        let of = |method: &str, error, gpu_ns, spread| Row {
+            term: "level_map".into(),
+            gpu_ns: Some(gpu_ns),
+            gpu_spread: Some(spread),
+            bytes: Some(16_773_120),
+            ..row(method, "studio; relative", error, 120.0)
+        };
+        let rows = vec![
+            of("hermite", 0.0062, 189.9, 0.001),
+            of("geometric", 0.0488, 175.9, 0.002),
+            of("linear", 0.0514, 173.5, 0.008),
+            of("report", 0.0514, 169.5, 0.066),
+        ];
+        let found = comparisons(&rows);
+        let mobile = found[0].recommended(Budget::Mobile);
+        assert_eq!((mobile.weighed, mobile.entry.row.method.as_str()), (Cost::Device, "geometric"));
     }
 
     /// What is named is recommended, what the library has beside it is told apart.

@@ -9,6 +9,7 @@ mod times;
 use std::collections::HashSet;
 use std::fmt;
 
+use crate::missing::{DEVICE, LeftOut};
 use crate::{Report, Row};
 
 /// A row as it was, and as it is.
@@ -32,6 +33,8 @@ pub struct Change {
     pub figure: &'static str,
     /// The figure before and now, with what noise allows, in words.
     pub figures: String,
+    /// Whether another run of the same found it, too; see [`confirm`].
+    pub confirmed: bool,
 }
 
 impl fmt::Display for Change {
@@ -43,7 +46,12 @@ impl fmt::Display for Change {
 impl Change {
     fn of(what: &'static str, row: &Row, figure: &'static str, figures: String) -> Change {
         let [term, method, domain] = [&row.term, &row.method, &row.domain].map(String::clone);
-        Change { what, term, method, domain, figure, figures }
+        Change { what, term, method, domain, figure, figures, confirmed: false }
+    }
+
+    /// Whether another run of the same may say something else of it.
+    pub fn is_doubtful(&self) -> bool {
+        self.what == SLOWER
     }
 
     fn is_of(&self, row: &Row) -> bool {
@@ -72,11 +80,17 @@ pub fn changes(old: &Report, new: &Report) -> Vec<Change> {
 
     let is_measured = |part: &str| new.parts.iter().any(|name| name == part);
     let is_whole = old.parts.iter().all(|part| is_measured(part));
-    let was_measured = |row: &Row| if row.part.is_empty() { is_whole } else { is_measured(&row.part) };
+    let is_left_out = |row: &Row| new.left_out.iter().any(|left| left.what.is_none() && left.part == row.part);
+    let was_measured =
+        |row: &Row| if row.part.is_empty() { is_whole } else { is_measured(&row.part) && !is_left_out(row) };
     let lost = lost_device(old, new);
     let by_device = |row: &Row| lost.is_some() && row.gpu.is_some();
     let gone = old.rows.iter().filter(|row| was_measured(row) && of(row).is_none() && !by_device(row));
-    changes.extend(gone.map(|row| Change::of("gone", row, "row", "it has no row any more".to_owned())));
+    changes.extend(
+        gone.map(|row| Change::of("gone", row, "row", format!("it has no row any more{}", left_out(row, new)))),
+    );
+    let parts = new.left_out.iter().filter(|left| left.what.is_none());
+    changes.extend(parts.filter(|left| old.rows.iter().any(|row| row.part == left.part)).map(lost_part));
     let only_recorded = all.iter().filter(|(old, new)| !is_recorded(old) && is_recorded(new));
     changes.extend(
         only_recorded
@@ -87,11 +101,24 @@ pub fn changes(old: &Report, new: &Report) -> Vec<Change> {
     changes
 }
 
-/// Where the new report has times of no device and the old one has, of the same parts: that, once for all its rows.
+/// A part that was measured and is left out now, once for all its rows.
+fn lost_part(left: &LeftOut) -> Change {
+    let figures = format!("nothing of it is measured any more: {}", left.why);
+    Change::of("gone", &Row::new("part", &left.part, "every row of the part"), "part", figures)
+}
+
+/// Why a picture's example has no rows, where the report says it.
+fn left_out(row: &Row, new: &Report) -> String {
+    let example = row.domain.split(':').next();
+    let is_of = |left: &&LeftOut| left.part == row.part && left.what.is_some() && left.what.as_deref() == example;
+    new.left_out.iter().find(is_of).map_or_else(String::new, |left| format!(": {}", left.why))
+}
+
+/// Where the new report found no device and the old one has times of one, of the same parts: that, once for all its rows.
 fn lost_device(old: &Report, new: &Report) -> Option<Change> {
-    let device = |report: &Report| report.rows.iter().find_map(|row| row.gpu.clone());
-    let of_device = |part: &str| ["shaders", "pictures"].contains(&part) && old.parts.iter().any(|name| name == part);
-    let name = device(old).filter(|_| device(new).is_none() && new.parts.iter().any(|part| of_device(part)))?;
+    let is_known = |part: &str| old.parts.iter().any(|name| name == part);
+    let is_lost = new.left_out.iter().any(|left| left.what.as_deref() == Some(DEVICE) && is_known(&left.part));
+    let name = old.rows.iter().find_map(|row| row.gpu.clone()).filter(|_| is_lost)?;
     let figures = "nothing is measured on a device any more: none was found".to_owned();
     Some(Change::of("gone", &Row::new("device", &name, "every row of a device"), "device", figures))
 }
@@ -154,15 +181,30 @@ const SLOWER: &str = "slower";
 
 /// The parts of `new` to measure again, for something in them seems to be slower.
 pub fn doubtful<'r>(changes: &[Change], new: &'r Report) -> HashSet<&'r str> {
-    let is_doubted = |row: &&Row| changes.iter().any(|change| change.what == SLOWER && change.is_of(row));
+    let is_doubted = |row: &&Row| changes.iter().any(|change| change.is_doubtful() && change.is_of(row));
     new.rows.iter().filter(is_doubted).map(|row| row.part.as_str()).collect()
 }
 
-/// Takes out what was slower once and is not in `again`, another run of the same.
-pub fn confirm(changes: &mut Vec<Change>, again: &[Change]) {
+/// Takes out what was slower once and is not in `again`, the changes of `run`, another run of the same. What that run measured in a slow
+/// moment, in which it would see less, it does not speak against.
+pub fn confirm(changes: &mut Vec<Change>, again: &[Change], run: &Report) {
     let key = |change: &Change| (change.term.clone(), change.method.clone(), change.domain.clone(), change.figure);
     let is_same = |a: &Change, b: &Change| b.what == SLOWER && key(a) == key(b);
-    changes.retain(|change| change.what != SLOWER || again.iter().any(|other| is_same(change, other)));
+    let abstains = |change: &Change| {
+        let mut own = run.rows.iter().filter(|row| change.is_of(row));
+        own.any(|row| times::is_strained(change.figure, row, &run.rows))
+    };
+    for change in changes.iter_mut().filter(|change| change.is_doubtful()) {
+        let is_found = again.iter().any(|other| is_same(change, other));
+        change.confirmed |= is_found;
+    }
+    changes
+        .retain(|change| !change.is_doubtful() || again.iter().any(|other| is_same(change, other)) || abstains(change));
+}
+
+/// Takes out what was slower once and no other run confirmed.
+pub fn settle(changes: &mut Vec<Change>) {
+    changes.retain(|change| !change.is_doubtful() || change.confirmed);
 }
 
 #[cfg(test)]

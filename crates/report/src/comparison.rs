@@ -78,10 +78,15 @@ fn groups(rows: &[Row]) -> Vec<(Cost, Vec<usize>)> {
     groups
 }
 
+/// Up to which ratio two costs of these spreads are alike.
+pub(crate) fn alike(a: Option<f64>, b: Option<f64>) -> f64 {
+    1.0 + a.unwrap_or(0.0).max(b.unwrap_or(0.0)).clamp(ALIKE, 0.2)
+}
+
 /// Which of these (error, cost, spread of the cost) no other beats. Costs within their spread are alike; errors are exact.
 pub(crate) fn front(figures: &[(f64, f64, Option<f64>)]) -> Vec<bool> {
     let beats = |a: (f64, f64, Option<f64>), b: (f64, f64, Option<f64>)| {
-        let alike = 1.0 + a.2.unwrap_or(0.0).max(b.2.unwrap_or(0.0)).clamp(ALIKE, 0.2);
+        let alike = alike(a.2, b.2);
         a.0 <= b.0 && a.1 <= b.1 * alike && (a.0 < b.0 || a.1 * alike < b.1)
     };
     figures.iter().map(|&b| !figures.iter().any(|&a| beats(a, b))).collect()

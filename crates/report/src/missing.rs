@@ -1,4 +1,4 @@
-//! Why figures are not there: for each part, term and figure of which a row has none, one reason. Rows that say more of it have a
+//! Why rows and figures are not there: what a part left out, and for each part, term and figure of which a row has none, one reason. Rows that say more of it have a
 //! note of their own.
 
 use serde::{Deserialize, Serialize};
@@ -17,6 +17,29 @@ pub struct Null {
     pub figure: String,
     /// The reason.
     pub why: String,
+}
+
+/// What a part did not measure, of which there are no rows that could say so.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LeftOut {
+    /// The part.
+    pub part: String,
+    /// What of it: an example's name, or [`DEVICE`]; none where it is the whole part.
+    pub what: Option<String>,
+    /// The reason.
+    pub why: String,
+}
+
+/// What is left out where no device was found.
+pub const DEVICE: &str = "device";
+
+impl std::fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match &self.what {
+            Some(what) => write!(f, "{}: {what}: {}", self.part, self.why),
+            None => write!(f, "{}: {}", self.part, self.why),
+        }
+    }
 }
 
 /// Whether a row lacks a figure.

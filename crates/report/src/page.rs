@@ -83,6 +83,10 @@ fn head(report: &Report, comparisons: &[Comparison<'_>], chapters: &[&str], page
     if !missing.is_empty() {
         let _ = writeln!(page, "<p class=\"muted\">Not measured in this run: {}.</p>", missing.join(", "));
     }
+    if !report.left_out.is_empty() {
+        let left: Vec<String> = report.left_out.iter().map(|left| escaped(&left.to_string())).collect();
+        let _ = writeln!(page, "<p class=\"muted\">Not measured: {}.</p>", left.join("; "));
+    }
     page.push_str("<nav>");
     if !comparisons.is_empty() {
         page.push_str("<a href=\"#choose\">What to choose</a>");
@@ -455,4 +459,20 @@ fn nulls(report: &Report) -> String {
          <th>figure</th><th>why some of its rows have none</th></tr></thead><tbody>\n{}</tbody></table></div></details>\n",
         report.nulls.iter().map(row).collect::<String>()
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Effort;
+    use crate::missing::LeftOut;
+
+    #[test]
+    fn what_is_left_out_is_named() {
+        let mut report = Report::begun(Effort::Quick);
+        assert!(!html(&report).contains("Not measured: "));
+        let (part, what, why) = ("pictures".into(), Some("helmet.scene".into()), "no such file".into());
+        report.left_out.push(LeftOut { part, what, why });
+        assert!(html(&report).contains("Not measured: pictures: helmet.scene: no such file."));
+    }
 }

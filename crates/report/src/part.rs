@@ -19,19 +19,34 @@ mod split_sum;
 mod stations;
 mod texels;
 
+use std::sync::{Mutex, PoisonError};
+
+use crate::missing::LeftOut;
 use crate::{Effort, Row};
 
 /// A part while it is measured: how long to measure, and who is told what is finished.
 pub struct Run<'a> {
     effort: Effort,
     keep: &'a (dyn Fn(&[Row], f64) + Sync),
+    left_out: Mutex<Vec<LeftOut>>,
 }
 
 impl<'a> Run<'a> {
     /// `keep` gets all rows of the part that are finished so far, none where they are the same as before, and how much of
     /// the part is done, 0 to 1. It may be called from any thread.
     pub fn new(effort: Effort, keep: &'a (dyn Fn(&[Row], f64) + Sync)) -> Run<'a> {
-        Run { effort, keep }
+        Run { effort, keep, left_out: Mutex::default() }
+    }
+
+    /// What was not measured so far, and why.
+    pub fn left_out(&self) -> Vec<LeftOut> {
+        self.left_out.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// This of a part, or all of it, is not measured.
+    pub(crate) fn leave_out(&self, part: &str, what: Option<&str>, why: String) {
+        let left = LeftOut { part: part.to_owned(), what: what.map(str::to_owned), why };
+        self.left_out.lock().unwrap_or_else(PoisonError::into_inner).push(left);
     }
 
     /// How long to measure.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::missing::{self, Null};
+use crate::missing::{self, LeftOut, Null};
 use crate::part::shaders;
 use crate::{Effort, Row, mark_pareto, write};
 
@@ -25,6 +25,9 @@ pub struct Report {
     /// Why figures of the rows are null.
     #[serde(default)]
     pub nulls: Vec<Null>,
+    /// What the parts left out, and why.
+    #[serde(default)]
+    pub left_out: Vec<LeftOut>,
 }
 
 /// The version of the layout.
@@ -45,7 +48,16 @@ impl Report {
     /// A report of this machine and day, without rows.
     pub fn begun(effort: Effort) -> Report {
         let (machine, date) = (write::machine(), write::today());
-        Report { schema: SCHEMA, machine, date, effort, parts: Vec::new(), rows: Vec::new(), nulls: Vec::new() }
+        Report {
+            schema: SCHEMA,
+            machine,
+            date,
+            effort,
+            parts: Vec::new(),
+            rows: Vec::new(),
+            nulls: Vec::new(),
+            left_out: Vec::new(),
+        }
     }
 
     /// Takes the rows of a part in the place of those that it had, and marks which of them no other beats.
@@ -57,6 +69,12 @@ impl Report {
         shaders::share(&mut self.rows);
         mark_pareto(&mut self.rows[first..]);
         self.nulls = missing::nulls(&self.rows);
+    }
+
+    /// Takes what a part left out in the place of what was said of it before.
+    pub fn leave_out(&mut self, part: &str, left_out: Vec<LeftOut>) {
+        self.left_out.retain(|left| left.part != part);
+        self.left_out.extend(left_out);
     }
 
     /// The rows of a part.
@@ -78,9 +96,10 @@ impl Report {
     /// (an infinite error) are null.
     pub fn to_json(&self) -> String {
         let rows: Vec<String> = self.rows.iter().map(|row| serde_json::json!(row).to_string()).collect();
-        let Report { schema, machine, date, effort, parts, nulls, .. } = self;
+        let Report { schema, machine, date, effort, parts, nulls, left_out, .. } = self;
         let head = serde_json::json!({
-            "schema": schema, "machine": machine, "date": date, "effort": effort, "parts": parts, "nulls": nulls, "rows": []
+            "schema": schema, "machine": machine, "date": date, "effort": effort, "parts": parts, "nulls": nulls,
+            "left_out": left_out, "rows": []
         });
         head.to_string().replacen("\"rows\":[]}", &format!("\"rows\":[\n{}\n]}}\n", rows.join(",\n")), 1)
     }
@@ -94,6 +113,9 @@ mod tests {
     fn a_report_survives_its_file() {
         let mut report = Report::begun(Effort::Quick);
         report.rows.push(Row { error_rms: Some(0.5), at: Some("n.v = 0".into()), ..Row::new("d", "ggx", "all") });
+        assert_eq!(Report::from_json(&report.to_json()).expect("the same layout"), report);
+        let why = "no such file".to_owned();
+        report.left_out.push(LeftOut { part: "pictures".into(), what: Some("helmet.scene".into()), why });
         assert_eq!(Report::from_json(&report.to_json()).expect("the same layout"), report);
         report.schema = 2;
         let error = Report::from_json(&report.to_json()).expect_err("a later layout");

@@ -1,7 +1,7 @@
 //! Numbers and findings in words: what a plot shows, said from its data.
 
 use crate::Row;
-use crate::comparison::{Comparison, Entry};
+use crate::comparison::{Comparison, Entry, alike as alike_within};
 use crate::cost::Cost;
 use crate::unit::{Budget, Unit};
 
@@ -101,9 +101,16 @@ pub fn finding(comparison: &Comparison<'_>) -> String {
     let cheapest = fast.min_by(|a, b| a.rms.total_cmp(&b.rms)).unwrap_or(best);
     if std::ptr::eq(cheapest, best) || (comparison.cost.is_time() && best.cost <= alike * cheapest.cost) {
         // Times that spread over each other are alike, whichever number is smaller.
-        let beyond =
-            if comparison.entries.iter().any(|entry| entry.cost < best.cost) { " beyond the spread" } else { "" };
-        return format!("`{name}` {errs}, and nothing is cheaper{beyond}");
+        let spread = |entry: &Entry<'_>| comparison.cost.spread(entry.row);
+        let is_beyond = |entry: &Entry<'_>| entry.cost * alike_within(spread(entry), spread(best)) < best.cost;
+        let cheaper = if comparison.entries.iter().any(is_beyond) {
+            "much cheaper"
+        } else if comparison.entries.iter().any(|entry| entry.cost < best.cost) {
+            "cheaper beyond the spread"
+        } else {
+            "cheaper"
+        };
+        return format!("`{name}` {errs}, and nothing is {cheaper}");
     }
     let ratio = best.cost / cheapest.cost;
     let saves = match comparison.cost {
@@ -257,7 +264,14 @@ mod tests {
         assert_eq!(found(&rows), "`good` errs least, 0.10 %; `fair` is 2.9 times as fast but errs 10 %");
         // Nobody is 1.0 times as fast.
         let rows = [row("good", 0.001, 1.04), row("poor", 0.8, 1.0)];
-        assert_eq!(found(&rows), "`good` errs least, 0.10 %, and nothing is cheaper beyond the spread");
+        assert_eq!(found(&rows), "`good` errs least, 0.10 %, and nothing is much cheaper");
+        // What the rows' own spread tells apart is no noise, and what it does not is.
+        let of = |spread| {
+            let rows = [row("good", 0.001, 8.4), row("report", 0.8, 7.6)];
+            rows.map(|row| Row { cost_spread: Some(spread), ..row })
+        };
+        assert_eq!(found(&of(0.001)), "`good` errs least, 0.10 %, and nothing is much cheaper");
+        assert_eq!(found(&of(0.15)), "`good` errs least, 0.10 %, and nothing is cheaper beyond the spread");
         let rows = [row("least", 0.24, 1.1), row("next", 0.246, 1.05), row("poor", 0.8, 1.04)];
         assert_eq!(
             found(&rows),

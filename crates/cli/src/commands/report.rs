@@ -27,7 +27,7 @@ pub(crate) struct ReportArgs {
     /// Folder for index.html, report.json and the CSV files
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Fewer points and runs: at most two minutes on two cores
+    /// Fewer points and runs: at most two minutes on two cores; --compare may take longer, for it measures again what seems slower
     #[arg(long)]
     quick: bool,
     /// Measures this part only; may be given several times
@@ -77,10 +77,15 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
             at(share);
             kept.part_so_far(part.name, rows);
         };
-        let rows = (part.rows)(&Run::new(effort, &run));
+        let run = Run::new(effort, &run);
+        let rows = (part.rows)(&run);
         bar.finish_and_clear();
         note(format_args!("{}: {} rows", part.name, rows.len()));
-        kept.part(part.name, rows)?;
+        let left_out = run.left_out();
+        for left in &left_out {
+            note(format_args!("not measured: {left}"));
+        }
+        kept.part(part.name, rows, left_out)?;
     }
     let report = kept.report();
     let page = args.output.join("index.html");
@@ -92,10 +97,14 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     if let Some([before, now]) = compare::other_device(&old, &report) {
         note(format_args!("the old report's device is {before}, this one's {now}: their times are not compared"));
     }
-    let mut changes = compare::changes(&old, &report);
+    let (mut slower, certain): (Vec<_>, Vec<_>) =
+        compare::changes(&old, &report).into_iter().partition(|change| change.is_doubtful());
+    for change in &certain {
+        print(&change.to_string())?;
+    }
     // What else the machine does slows one method more than another, in a whole run: a change stays.
     for _ in 0..CONFIRMATIONS {
-        let doubtful = compare::doubtful(&changes, &report);
+        let doubtful = compare::doubtful(&slower, &report);
         if doubtful.is_empty() {
             break;
         }
@@ -107,14 +116,15 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
             std::thread::sleep(CALM);
             again.rows.extend(measured_apart(part, effort)?);
         }
-        compare::confirm(&mut changes, &compare::changes(&old, &again));
+        compare::confirm(&mut slower, &compare::changes(&old, &again), &again);
     }
-    for change in &changes {
+    compare::settle(&mut slower);
+    for change in &slower {
         print(&change.to_string())?;
     }
-    let (common, worse) = (compare::common(&old, &report), changes.len());
+    let (common, worse) = (compare::common(&old, &report), certain.len() + slower.len());
     note(format_args!("figures that are worse: {worse}, of {common} rows that the report of {} has, too", old.date));
-    Ok(if changes.is_empty() { 0 } else { FOUND })
+    Ok(if worse == 0 { 0 } else { FOUND })
 }
 
 /// Whether an old report has any of the parts that are to be measured.

@@ -133,15 +133,41 @@ fn what_is_slower_once_is_measured_again_and_told_when_it_stays_so() {
     assert_eq!(found.iter().map(|c| c.what).collect::<Vec<_>>(), ["slower", "less accurate"]);
     assert_eq!(doubtful(&found, &new), HashSet::from(["brdf"]));
     let mut again = found.clone();
-    confirm(&mut found, &again);
+    confirm(&mut found, &again, &new);
     assert_eq!(found.len(), 2);
     // Another figure of the row says nothing of this one.
     again[0].figure = "an element of a batch";
     let mut of_another = found.clone();
-    confirm(&mut of_another, &again);
+    confirm(&mut of_another, &again, &new);
     assert_eq!(of_another.len(), 1);
-    confirm(&mut found, &[]);
+    confirm(&mut found, &[], &new);
     assert_eq!(found.iter().map(|c| c.what).collect::<Vec<_>>(), ["less accurate"]);
+}
+
+/// A run that measured in a slow moment neither confirms nor denies; what no run confirms is not told.
+#[test]
+fn a_strained_run_abstains() {
+    let mut old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.3]);
+    old.rows.iter_mut().for_each(|row| row.yardstick_ns = Some(4.0));
+    let mut new = old.clone();
+    new.rows[2].cost_ns = Some(8.0);
+    let mut strained = new.clone();
+    strained.rows[2].yardstick_ns = Some(6.0);
+    assert_eq!(changes(&old, &strained), []);
+
+    let mut found = changes(&old, &new);
+    confirm(&mut found, &[], &strained);
+    assert_eq!(found.len(), 1);
+    let mut unconfirmed = found.clone();
+    settle(&mut unconfirmed);
+    assert_eq!(unconfirmed, []);
+    confirm(&mut found, &changes(&old, &new), &new);
+    confirm(&mut found, &[], &strained);
+    settle(&mut found);
+    assert_eq!(found.len(), 1);
+    // A calm run that does not see it denies it.
+    confirm(&mut found, &[], &old);
+    assert_eq!(found, []);
 }
 
 /// Bakes and pictures run too seldom to know their spread: half as much again is told.
@@ -224,8 +250,33 @@ fn a_lost_device_is_told_once() {
     for row in &mut new.rows {
         (row.gpu_ns, row.gpu) = (None, None);
     }
+    new.left_out = vec![LeftOut { part: "shaders".into(), what: Some(DEVICE.into()), why: "none was found".into() }];
     let found = changes(&old, &new);
     assert_eq!(found.iter().map(|c| (c.what, c.term.as_str())).collect::<Vec<_>>(), [("gone", "device")]);
+}
+
+/// What is not measured is told with its reason: a whole part once, and not as a device that is gone; an example by its rows.
+#[test]
+fn what_is_left_out_is_told_with_its_reason() {
+    let mut old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.3]);
+    old.parts = vec!["pictures".into()];
+    for (row, domain) in old.rows.iter_mut().zip(["helmet.scene: a picture", "ball.scene: a picture", "x: a picture"]) {
+        (row.part, row.domain, row.gpu) = ("pictures".into(), domain.into(), Some("x".into()));
+    }
+    let left = |what: Option<&str>| LeftOut {
+        part: "pictures".into(),
+        what: what.map(str::to_owned),
+        why: "no such file".into(),
+    };
+    let mut new = Report { rows: Vec::new(), left_out: vec![left(None)], ..old.clone() };
+    let found = changes(&old, &new);
+    assert_eq!(found.len(), 1);
+    assert!(found[0].to_string().starts_with("gone: part pictures: ") && found[0].figures.ends_with("no such file"));
+    new.rows = old.rows[1..].to_vec();
+    new.left_out = vec![left(Some("helmet.scene"))];
+    let found = changes(&old, &new);
+    assert_eq!(found.len(), 1);
+    assert_eq!((found[0].method.as_str(), found[0].figures.ends_with(": no such file")), ("a", true));
 }
 
 /// Peers are compared like all else; what is recorded is not compared, and one that is only recorded now is missed.

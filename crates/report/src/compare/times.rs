@@ -49,6 +49,17 @@ fn ratio(timed: &Timed, (old, new): Pair<'_>) -> Option<f64> {
         .filter(|ratio| is_comparable && ratio.is_finite() && *ratio > 0.0)
 }
 
+/// What a yardstick takes when the machine does nothing else: the least of a run.
+fn fastest<'r>(rows: impl Iterator<Item = &'r Row>) -> f64 {
+    rows.filter_map(|row| row.yardstick_ns).fold(f64::INFINITY, f64::min)
+}
+
+/// Whether a time was measured in a slow moment of its run, so that more noise is allowed.
+pub(super) fn is_strained(figure: &str, row: &Row, run: &[Row]) -> bool {
+    let has_yardstick = TIMED.iter().any(|timed| timed.name == figure && !timed.of_device);
+    has_yardstick && strain(row, fastest(run.iter())) > 0.0
+}
+
 /// How much longer a row's yardstick took than the fastest of its run, beyond what is usual.
 fn strain(row: &Row, fastest: f64) -> f64 {
     row.yardstick_ns.map_or(0.0, |yardstick| (yardstick / fastest - 1.0 - CALM).max(0.0))
@@ -62,8 +73,7 @@ pub(super) fn slower(pairs: &[Pair<'_>]) -> Vec<Change> {
             pairs.iter().flat_map(|&pair| kinds().filter_map(move |timed| ratio(timed, pair))).collect();
         if all.is_empty() { 1.0 } else { median(all) }
     });
-    let fastest = [pairs.iter().map(|pair| pair.0).collect::<Vec<_>>(), pairs.iter().map(|pair| pair.1).collect()]
-        .map(|rows| rows.iter().filter_map(|row| row.yardstick_ns).fold(f64::INFINITY, f64::min));
+    let fastest = [fastest(pairs.iter().map(|pair| pair.0)), fastest(pairs.iter().map(|pair| pair.1))];
     let mut changes = Vec::new();
     // The same time stands in the rows of all domains of a method.
     let mut told = HashSet::new();

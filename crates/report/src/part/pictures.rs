@@ -5,7 +5,8 @@
 //! *unspecialised* shader every input of its surfaces that has a number is a uniform, so that every lobe stays in. Both are made as shaders are
 //! exported; the parameters that a document exposes are numbers in one and uniforms in the other.
 //!
-//! The examples are read from the folder `examples` of the project, where the program is run; elsewhere there are no rows.
+//! The examples are read from the folder `examples` of the project, where the program is run; elsewhere there are no rows, and the report
+//! says so.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -22,16 +23,20 @@ use halfvector_graph::node_def::Default as Unconnected;
 use halfvector_ibl::{BakedEnvironment, LoadedEnvironment, bake};
 use halfvector_raster::{RasterOptions, draw};
 use halfvector_reference::metrics::{FlipOptions, flip_hdr, noisy_error};
-use halfvector_reference::{Reference, RenderOptions as ReferenceOptions};
+use halfvector_reference::{Reference, ReferenceError, RenderOptions as ReferenceOptions};
 use halfvector_render::RenderOptions;
 use halfvector_scene::{BuiltinMesh, MeshSource, Picture, Scene, bake_options, needs};
 
 use super::shaders::instructions;
-use super::stations::{Station, shared, stations};
+use super::stations::{NO_DEVICE, Station, shared, stations};
+use crate::missing::DEVICE;
 use crate::timing::median;
 use crate::{Effort, Row, Run};
 
 const FOLDER: &str = "examples";
+
+/// The part's name.
+const PART: &str = "pictures";
 
 /// Samples along a side of a pixel: as many for every drawer.
 const SAMPLES: u32 = 4;
@@ -39,12 +44,21 @@ const SAMPLES: u32 = 4;
 /// Measures the part. What is not timed is made for several examples at once: truths, bakes, and first pictures, which wait for
 /// compilers. Then each picture is timed while nothing else runs.
 pub fn rows(run: &Run<'_>) -> Vec<Row> {
-    rows_of(&examples(), run)
+    match examples(Path::new(FOLDER)) {
+        Ok(examples) => rows_of(&examples, run),
+        Err(why) => {
+            run.leave_out(PART, None, why);
+            Vec::new()
+        }
+    }
 }
 
 /// The rows of some examples: their files.
 pub fn rows_of(examples: &[PathBuf], run: &Run<'_>) -> Vec<Row> {
     let (stations, kept) = (stations(), Kept::default());
+    if stations.iter().all(Option::is_none) {
+        run.leave_out(PART, Some(DEVICE), NO_DEVICE.to_owned());
+    }
     let done = AtomicUsize::new(0);
     let one_done = || (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / (2 * examples.len()) as f64;
     let mut rows = Vec::new();
@@ -55,33 +69,50 @@ pub fn rows_of(examples: &[PathBuf], run: &Run<'_>) -> Vec<Row> {
             run.at(one_done());
             example
         });
-        for (station, example) in prepared {
+        for (path, (station, example)) in some.iter().zip(prepared) {
             let station = stations[station].as_ref();
-            rows.extend(example.map(|example| example.rows(station, run.effort())).into_iter().flatten());
+            match example {
+                Ok(example) => rows.extend(example.rows(station, run.effort())),
+                Err(why) => run.leave_out(PART, Some(&name(path)), why),
+            }
             run.keep(&rows, one_done());
         }
     }
     rows
 }
 
-/// The documents of the folder itself, in order of name; those of folders within it are for other ends.
-fn examples() -> Vec<PathBuf> {
-    let Ok(folder) = std::fs::read_dir(FOLDER) else { return Vec::new() };
+/// The documents of a folder itself, in order of name; those of folders within it are for other ends. Else why there are none.
+fn examples(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let place = folder.display();
+    let remedy = "start the program in the project's folder";
+    let entries = std::fs::read_dir(folder).map_err(|error| {
+        format!("the folder {place} cannot be read where the program was started: {error}; {remedy}")
+    })?;
     let is_document = |path: &PathBuf| {
         path.to_str().is_some_and(|path| path.ends_with(".material.json") || path.ends_with(".scene.json"))
     };
-    let mut paths: Vec<PathBuf> = folder.flatten().map(|entry| entry.path()).filter(is_document).collect();
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(is_document).collect();
     paths.sort();
-    paths
+    if paths.is_empty() {
+        return Err(format!("the folder {place} has no .material.json and no .scene.json; {remedy}"));
+    }
+    Ok(paths)
 }
 
-/// A scene; none when it or what it refers to cannot be read: examples of others' models want files that are not ours.
-fn load(path: &Path) -> Option<Scene> {
-    if path.to_str()?.ends_with(".scene.json") {
-        return halfvector_scene::load_scene(path).ok();
+/// An example's name.
+fn name(path: &Path) -> String {
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
+    file.trim_end_matches(".json").to_owned()
+}
+
+/// A scene, or why it or what it refers to cannot be read: examples of others' models want files that are not ours.
+fn load(path: &Path) -> Result<Scene, String> {
+    if path.to_string_lossy().ends_with(".scene.json") {
+        return halfvector_scene::load_scene(path).map_err(|error| error.to_string());
     }
-    let document = halfvector_graph::file::load(path).ok()?;
-    Scene::from_material(document, path.parent()?, &MeshSource::Builtin(BuiltinMesh::Sphere)).ok()
+    let document = halfvector_graph::file::load(path).map_err(|error| error.to_string())?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    Scene::from_material(document, folder, &MeshSource::Builtin(BuiltinMesh::Sphere)).map_err(|error| error.to_string())
 }
 
 /// A drawn picture as radiance.
@@ -89,23 +120,29 @@ fn radiance(picture: &Picture) -> Vec<[f64; 3]> {
     picture.pixels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect()
 }
 
+/// An environment, none where a scene has none, or why it cannot be read.
+type Loaded = Result<Option<Arc<LoadedEnvironment>>, String>;
+
 /// Environments that are loaded and baked already, by what they are and how: most examples are lit by the same one.
 #[derive(Default)]
 struct Kept {
-    loaded: Mutex<HashMap<String, Option<Arc<LoadedEnvironment>>>>,
+    loaded: Mutex<HashMap<String, Loaded>>,
     bakes: Mutex<HashMap<String, Arc<BakedEnvironment>>>,
 }
 
 impl Kept {
-    /// The environment of a scene; none where it has none or it cannot be read.
-    fn loaded(&self, scene: &Scene) -> Option<Arc<LoadedEnvironment>> {
+    /// The environment of a scene.
+    fn loaded(&self, scene: &Scene) -> Loaded {
         let mut loaded = self.loaded.lock().unwrap_or_else(PoisonError::into_inner);
-        let read = || scene.environment.load().ok().flatten().map(Arc::new);
+        let read = || {
+            let found = scene.environment.load().map_err(|error| error.to_string());
+            found.map(|environment| environment.map(Arc::new))
+        };
         loaded.entry(format!("{:?}", scene.environment)).or_insert_with(read).clone()
     }
 
     fn baked(&self, scene: &Scene) -> Option<Arc<BakedEnvironment>> {
-        let loaded = self.loaded(scene)?;
+        let loaded = self.loaded(scene).ok().flatten()?;
         let options = bake_options(&scene.environment, &scene.methods, &loaded);
         let key = format!("{:?}, {options:?}", scene.environment);
         let mut bakes = self.bakes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -210,26 +247,28 @@ struct Example {
 }
 
 impl Example {
-    /// None where the example cannot be read or has no truth.
-    fn prepared(path: &Path, station: Option<&Station>, kept: &Kept, effort: Effort) -> Option<Example> {
+    /// Else why the example cannot be read or has no truth.
+    fn prepared(path: &Path, station: Option<&Station>, kept: &Kept, effort: Effort) -> Result<Example, String> {
+        let linear =
+            |methods: &mut Methods| set_linear(methods).ok_or("its methods have no default of encode or env_decode");
         let mut scene = load(path)?;
         // What the reference has no truth for.
-        set_linear(&mut scene.methods)?;
-        let name = path.file_name()?.to_str()?.trim_end_matches(".json").to_owned();
+        linear(&mut scene.methods)?;
         let size = effort.pick(32, 128) as u32;
         let options = ReferenceOptions { width: size, height: size, shadows: false, ..ReferenceOptions::default() };
-        let loaded = kept.loaded(&scene);
-        let mut reference = Reference::new(&scene, loaded.as_deref(), options).ok()?;
-        reference.add_samples(effort.pick(64, 256) as u64, &|_| ()).ok()?;
+        let loaded = kept.loaded(&scene)?;
+        let no_truth = |error: ReferenceError| format!("the reference cannot draw it: {error}");
+        let mut reference = Reference::new(&scene, loaded.as_deref(), options).map_err(no_truth)?;
+        reference.add_samples(effort.pick(64, 256) as u64, &|_| ()).map_err(no_truth)?;
         let picture = reference.picture();
         drop(reference);
 
         let view = |scene: Scene| View::new(scene, kept, station, size);
         let with = |methods: Methods| view(Scene { methods, ..specialised(&scene) });
         let mut report = Methods::report();
-        set_linear(&mut report)?;
-        Some(Example {
-            name,
+        linear(&mut report)?;
+        Ok(Example {
+            name: name(path),
             size,
             truth: picture.radiance(),
             noise: picture.standard_error,
@@ -365,6 +404,19 @@ mod tests {
         expose(&mut document);
         assert_eq!(document.parameters.len(), count);
         assert!(document.parameters.iter().all(|parameter| parameter.socket.socket != "perceptual_roughness"));
+    }
+
+    /// A folder that is not there and a document that cannot be read are told with the reason.
+    #[test]
+    fn what_cannot_be_read_is_named() {
+        let nowhere = examples(Path::new("no/such/folder")).expect_err("no folder");
+        assert!(nowhere.contains("no/such/folder") && nowhere.contains("start the program in"), "{nowhere}");
+
+        let run = Run::new(Effort::Quick, &|_, _| ());
+        assert_eq!(rows_of(&[PathBuf::from("no/such/helmet.scene.json")], &run), []);
+        let left_out = run.left_out();
+        let found = left_out.iter().find(|left| left.what.as_deref() == Some("helmet.scene")).expect("it is named");
+        assert!(found.part == PART && found.to_string().contains("helmet.scene.json"), "{found}");
     }
 
     /// An error that the reference's noise hides is no error of 0.

@@ -18,7 +18,8 @@ use halfvector_ibl::{BakeOptions, BakedEnvironment, bake, studio};
 use halfvector_render::RenderOptions;
 use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, Light, MeshSource, Scene, bake_options, needs};
 
-use super::stations::{Station, shared, station};
+use super::stations::{NO_DEVICE, Station, shared, station};
+use crate::missing::DEVICE;
 use crate::timing::{SITTINGS, median};
 use crate::{Row, Run};
 
@@ -64,7 +65,10 @@ pub fn rows(run: &Run<'_>) -> Vec<Row> {
     run.keep(&rows, 0.05);
     // Without a device its columns stay empty.
     let stations = [station()];
-    let Some(name) = stations.iter().flatten().map(Station::name).next() else { return rows };
+    let Some(name) = stations.iter().flatten().map(Station::name).next() else {
+        run.leave_out("shaders", Some(DEVICE), NO_DEVICE.to_owned());
+        return rows;
+    };
     for (row, time) in rows.iter_mut().zip(device_times(&stations, &subjects, run)) {
         let Some((shortest, spread)) = time else { continue };
         row.gpu_ns = Some(shortest * 1e9 / f64::from(SIDE * SIDE));

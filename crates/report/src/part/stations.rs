@@ -11,6 +11,9 @@ use halfvector_scene::{Picture, Scene};
 /// Most devices that are opened.
 const MOST: usize = 4;
 
+/// Why nothing is measured on a device.
+pub(super) const NO_DEVICE: &str = "none was found";
+
 /// A device, and what it has compiled.
 pub(super) struct Station {
     renderer: Renderer,

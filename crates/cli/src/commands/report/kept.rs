@@ -5,6 +5,7 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use halfvector_report::missing::LeftOut;
 use halfvector_report::{Effort, PARTS, Report, Row, page, write};
 
 use crate::failure::Failure;
@@ -49,10 +50,11 @@ impl Kept {
         }
     }
 
-    /// Writes a part that is measured to its end.
-    pub(super) fn part(&self, part: &str, rows: Vec<Row>) -> Result<(), Failure> {
+    /// Writes a part that is measured to its end, and what of it is not.
+    pub(super) fn part(&self, part: &str, rows: Vec<Row>, left_out: Vec<LeftOut>) -> Result<(), Failure> {
         let mut report = self.locked();
         report.take(part, rows);
+        report.leave_out(part, left_out);
         report.parts.push(part.to_owned());
         self.write(&report, part)
     }
