@@ -213,6 +213,7 @@ pub const FILES: &[File] = files![
     "nodes/spaces/view.wgsl",
     "nodes/surface/mix.wgsl",
     "nodes/surface/surface.wgsl",
+    "nodes/textures/blend_texels.wgsl",
     "nodes/textures/blur.wgsl",
     "nodes/textures/bump.wgsl",
     "nodes/textures/detail.wgsl",

@@ -63,6 +63,7 @@ const CASES: &[(&str, &[&str], Fold)] = &[
     ("tests/golden/cutout.material.json", &["sun"], Fold::Export),
     ("tests/golden/names.material.json", &["sun"], Fold::Export),
     ("tests/golden/lobes.material.json", &["sun", "environment", "everything"], Fold::Export),
+    ("tests/golden/relief.material.json", &["sun"], Fold::Export),
     ("tests/golden/sheet.material.json", &["sun", "environment"], Fold::Export),
 ];
 

@@ -169,6 +169,39 @@ fn displaced_squares_shade_like_the_relief() {
     }
 }
 
+/// A sphere moved by waves of 0.3 of its radius shades like a mesh that has their shape and normals by itself: slopes lie further
+/// out, or further in, than the sphere.
+#[test]
+fn displaced_spheres_shade_like_their_surface() {
+    let Some(renderer) = renderer() else { return };
+    let rings = r#"{"halfvector": 1, "name": "Rings", "nodes": {"rings": {"node": "custom/rings"},
+        "surface": {"node": "surface/surface", "values": {"base_color": [1, 1, 1], "specular": 0}}},
+        "links": [{"from": "rings.out", "to": "surface.height"}],
+        "functions": {"rings": ["/// Rings", "///", "/// Waves.", "/// @node custom/rings", "/// - o: place [context object_position]",
+        "/// - return: height", "fn rings(o: vec3f) -> f32 {", "    return 0.21 * sin(6.0 * o.y);", "}"]}}"#;
+    let rings = halfvector_graph::file::from_json(rings).unwrap_or_else(|e| panic!("{e}"));
+    let mesh = halfvector_scene::BuiltinMesh::Sphere.parts()[0].mesh.clone();
+    let mut shaped = mesh.clone();
+    for (position, normal) in shaped.positions.iter_mut().zip(&mut shaped.normals) {
+        let p = DVec3::from(position.map(f64::from));
+        let (h, slope) = (0.3 * (6.0 * p.y).sin(), 1.8 * (6.0 * p.y).cos());
+        *position = (p * (1.0 + h)).as_vec3().to_array();
+        *normal = (p - slope / (1.0 + h) * (DVec3::Y - p.y * p)).normalize().as_vec3().to_array();
+    }
+    let small = Mat4::from_scale(Vec3::splat(0.7));
+    let nowhere = std::path::Path::new("");
+    let found = normals(&renderer, scene(mesh, rings, nowhere, small), front_lights());
+    let truth = normals(&renderer, scene(shaped, plaster(), nowhere, small), front_lights());
+    let both = found.iter().zip(&truth).filter_map(|(a, b)| Some(((*a)?, (*b)?)));
+    let mut angles: Vec<f64> =
+        both.filter(|(_, truth)| truth.z > 0.6).map(|(found, truth)| found.angle_between(truth).to_degrees()).collect();
+    angles.sort_by(f64::total_cmp);
+    let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+    let most = angles[angles.len() * 99 / 100];
+    println!("rings on a sphere: mean {mean:.3}, 99 % below {most:.3} degrees, {} pixels", angles.len());
+    assert!(angles.len() > 20_000 && mean < 0.5 && most < 2.0, "{mean} {most}");
+}
+
 /// The node that makes a normal map of a height map, through the normal map node.
 #[test]
 fn normals_from_heights_are_the_relief() {

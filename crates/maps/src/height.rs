@@ -9,13 +9,16 @@ pub fn displaced<R: Real>(position: [R; 3], normal: [R; 3], height: R) -> [R; 3]
 }
 
 /// The unit normal of the surface raised by a height field. Mikkelsen 2010, "Bump Mapping Unparametrized Surfaces on the
-/// GPU": with the derivatives of the position that is not displaced, p_x and p_y, along any two directions (the screen's),
+/// GPU": with the derivatives of the position, p_x and p_y, along any two directions (the screen's),
 ///
 /// ```text
 /// R1 = p_y x n,  R2 = n x p_x,  det = p_x . R1,   grad = (h_x R1 + h_y R2) / det,   n' = normalize(n - grad)
 /// ```
 ///
-/// The derivatives of the height are along the same two directions. `normal` is unit; an empty footprint keeps it.
+/// The derivatives of the height are along the same two directions. `normal` is the old one, unit; an empty footprint keeps it.
+/// Of the displaced position p + h n the derivatives along x are p_x + h n_x + h_x n, whose part across n holds how much wider
+/// or narrower a curved surface is at that height: with them n' is exact. Those of p alone give the slope that it has at
+/// height 0.
 pub fn normal_from_height<R: Real>(
     position_ddx: [R; 3],
     position_ddy: [R; 3],
@@ -33,4 +36,19 @@ pub fn normal_from_height<R: Real>(
     } else {
         normalize_or(normal, normal)
     }
+}
+
+/// The tangent (w is its handedness) of the surface raised by a height field: moved along the old normal into the new surface,
+///
+/// ```text
+/// t' ~ t - n (t . n') / (n . n')
+/// ```
+///
+/// which for a flat surface is t + n (t . grad h), exactly. Written as t (n . n') - n (t . n'), which divides by nothing; not
+/// unit. Both normals are unit.
+pub fn displaced_tangent<R: Real>(normal: [R; 3], tangent: [R; 4], displaced_normal: [R; 3]) -> [R; 4] {
+    let [x, y, z, w] = tangent;
+    let t = [x, y, z];
+    let [x, y, z] = sub(scale(t, dot(normal, displaced_normal)), scale(normal, dot(t, displaced_normal)));
+    [x, y, z, w]
 }

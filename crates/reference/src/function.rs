@@ -279,12 +279,20 @@ impl Runner<'_> {
         self.execute(points.len())
     }
 
-    /// Runs it once more at the same points, but with other normals. How normals change from step to step stays as it was.
-    pub(crate) fn run_with_normals(&mut self, normals: &[DVec3]) -> Result<(), ReferenceError> {
+    /// Runs it once more at the same points, but with other normals, and with the tangents that they have now. How these
+    /// change from step to step stays as it was.
+    pub(crate) fn run_bent(&mut self, normals: &[DVec3], points: &[Point]) -> Result<(), ReferenceError> {
         for (column, (context, component)) in self.columns[0].iter_mut().zip(&self.function.inputs) {
-            if *context == Context::WorldNormal {
-                column.clear();
-                column.extend(normals.iter().map(|normal| normal[*component]));
+            match context {
+                Context::WorldNormal => {
+                    column.clear();
+                    column.extend(normals.iter().map(|normal| normal[*component]));
+                }
+                Context::WorldTangent => {
+                    column.clear();
+                    column.extend(points.iter().map(|point| point.tangent[*component]));
+                }
+                _ => {}
             }
         }
         self.execute(normals.len())

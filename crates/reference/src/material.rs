@@ -258,10 +258,10 @@ pub(crate) struct Evaluator<'m> {
 
 impl Evaluator<'_> {
     /// The surface at each point. `steps` are needed where the material [derives](Material::derives); without them normals
-    /// are not bent.
+    /// are not bent. The tangents of points on a displaced surface become those of that surface.
     pub(crate) fn surfaces(
         &mut self,
-        points: &[Point],
+        points: &mut [Point],
         steps: Option<Steps<'_>>,
         surfaces: &mut Vec<Surface>,
     ) -> Result<(), ReferenceError> {
@@ -272,7 +272,7 @@ impl Evaluator<'_> {
         self.surface.run(points, steps)?;
         self.read(points.len(), |_, surface| surfaces.push(surface));
         if self.bend(points, steps)? {
-            self.surface.run_with_normals(&self.normals)?;
+            self.surface.run_bent(&self.normals, points)?;
             self.read(points.len(), |i, bent| {
                 (surfaces[i].normal, surfaces[i].coat_normal) = (bent.normal, bent.coat_normal);
             });
@@ -298,23 +298,44 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Finds the displaced surface's normals, if the material has such.
+    /// Finds the displaced surface's normals and tangents, if the material has such.
     ///
-    /// The shaders derive them from the position before displacement, which is exact where the surface is flat. Here it is the
-    /// displaced one, p + h n, whose part across the normal n changes by h n' more: so it is exact where it is curved, too.
-    fn bend(&mut self, points: &[Point], steps: Option<Steps<'_>>) -> Result<bool, ReferenceError> {
+    /// The displaced position is p + h n, whose part across the normal n changes by h n' more than p: with its steps the
+    /// gradient of the height is exact where the surface is curved, too.
+    fn bend(&mut self, points: &mut [Point], steps: Option<Steps<'_>>) -> Result<bool, ReferenceError> {
         let (Some(change), Some([right, down])) = (&mut self.change, steps) else { return Ok(false) };
         change.run(points, steps)?;
         let (Some(along_x), Some(along_y)) = (change.result(0), change.result(1)) else { return Ok(false) };
         self.normals.clear();
-        self.normals.extend(points.iter().enumerate().map(|(i, point)| {
+        self.normals.extend(points.iter_mut().enumerate().map(|(i, point)| {
+            let rise = [along_x[i], along_y[i]];
             // What is no number stays none, and is told.
-            if !(along_x[i].is_finite() && along_y[i].is_finite()) {
+            if !rise.iter().all(|x| x.is_finite()) {
                 return DVec3::NAN;
             }
-            let [ddx, ddy] = [right, down].map(|beside| (beside[i].position - point.position).to_array());
-            normal_from_height(ddx, ddy, point.normal.to_array(), along_x[i], along_y[i]).into()
+            let beside = [&right[i], &down[i]];
+            let [ddx, ddy] = beside.map(|beside| beside.position - point.position);
+            if self.material.detail.tangents {
+                let before = beside.map(|beside| beside.surface_position - point.surface_position);
+                point.tangent = moved(point.tangent.truncate(), point.normal, before, [ddx, ddy], rise)
+                    .unwrap_or(point.tangent.truncate())
+                    .extend(point.tangent.w);
+            }
+            normal_from_height(ddx.to_array(), ddy.to_array(), point.normal.to_array(), along_x[i], along_y[i]).into()
         }));
         Ok(true)
     }
+}
+
+/// Where displacement takes a tangent of the mesh, not unit: the same way on the surface, t = a p_x + b p_y in the plane across
+/// the normal, is a P_x + b P_y of the steps P of the displaced position there, and rises by a h_x + b h_y along the normal. `None` for
+/// a footprint of no area.
+fn moved(tangent: DVec3, normal: DVec3, before: [DVec3; 2], after: [DVec3; 2], rise: [f64; 2]) -> Option<DVec3> {
+    let [x, y] = before;
+    let (across_x, across_y) = (y.cross(normal), normal.cross(x));
+    let area = x.dot(across_x);
+    let (a, b) = (tangent.dot(across_x) / area, tangent.dot(across_y) / area);
+    let along = after[0] * a + after[1] * b;
+    let found = along + normal * (a * rise[0] + b * rise[1] - along.dot(normal));
+    (found.is_finite() && found.length_squared() > 0.0).then_some(found)
 }

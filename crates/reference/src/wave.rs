@@ -176,7 +176,7 @@ impl<'r> Wave<'r> {
             let hits = std::mem::take(&mut self.hits[index]);
             if let (Some(material), Some(evaluator)) = (&reference.materials[index], &mut self.evaluators[index]) {
                 place(reference, material, &self.paths, &hits, &mut self.points);
-                let [points, right, down] = &self.points;
+                let [points, right, down] = &mut self.points;
                 let steps = material.wants_steps().then_some([right.as_slice(), down.as_slice()]);
                 evaluator.surfaces(points, steps, &mut self.surfaces)?;
                 self.draw(&hits);

@@ -319,6 +319,7 @@ pub(crate) const TWINS: &[Twin] = &[
         derivative::tangent_from_derivatives(v(x, 0), v(x, 3), v(x, 6), v(x, 9), v(x, 11))
     }),
     twin!("maps/height.wgsl" "displaced", [Point(10.0), Unit, Range(-1.0, 1.0)], 2.0, 1.0, DOUBLE, |x| height::displaced(v(x, 0), v(x, 3), x[6])),
+    twin!("maps/height.wgsl" "displaced_tangent", [Unit, TangentOfLast, Unit], 4.0, 1.0, DOUBLE, |x| height::displaced_tangent(v(x, 0), v(x, 3), v(x, 7))),
     twin!("maps/height.wgsl" "normal_from_height", [Footprint, Range(-0.01, 0.01), Range(-0.01, 0.01)], 8.0, 1.0, DOUBLE, |x| {
         height::normal_from_height(v(x, 0), v(x, 3), v(x, 6), x[9], x[10])
     }),

@@ -11,6 +11,7 @@ use crate::emit::value;
 use crate::ir::{Entry, Expr, Id, Program, Stage, Ty};
 use crate::link::{Index, Instance};
 use crate::names::{Namer, comment};
+use crate::passes::lower::DISPLACED_POSITION;
 use crate::reflection::{LightKind, SamplerSource};
 
 /// Which function is written.
@@ -318,7 +319,7 @@ impl<'w, 'a> Writer<'w, 'a> {
             (Entrance::Fragment, "object_position") => self.member("object_position"),
             // Nodes see the surface where it was before displacement, so that a pattern does not swim on it.
             (Entrance::Fragment, "world_position") if self.displaced => self.member("surface_position"),
-            (Entrance::Fragment, "world_position") => self.member("world_position"),
+            (Entrance::Fragment, "world_position" | DISPLACED_POSITION) => self.member("world_position"),
             (Entrance::Fragment, "world_tangent") => self.member("world_tangent"),
             // Locals that the entry point declares when they are used.
             _ => name.to_owned(),

@@ -8,8 +8,8 @@ use halfvector_graph::flatten::find;
 use halfvector_graph::library::Library;
 use halfvector_graph::library::custom::read_function;
 use halfvector_graph::method::Methods;
-use halfvector_graph::node_def::{Argument, Default, Function, Input as InputDef, NodeDef};
-use halfvector_graph::value::{SocketType, Type, Value};
+use halfvector_graph::node_def::{Argument, Default, Function, Input as InputDef};
+use halfvector_graph::value::{Filter, SocketType, Type, Value};
 
 use crate::ir::{Arena, Entry, Expr, Id, Input, NodeInfo, Program, Stage, Table, Ty};
 use crate::link::Index;
@@ -34,23 +34,25 @@ pub(crate) struct Lowering<'a, 't> {
     pub(crate) stage: StageKind,
     /// A socket of the surface whose number stays open, whatever is folded or wired to it.
     pub(crate) open: Option<&'static str>,
+    /// Whether what is computed is a height, whose slope counts.
+    pub(crate) height: bool,
     /// Expressions of the nodes met so far.
     calls: HashMap<usize, Id>,
     /// Weights of the nodes that mix surfaces, held to 0..1.
     pub(super) weights: HashMap<usize, Id>,
-    /// An expression to take in the place of a context.
-    substitute: Option<(&'static str, Id)>,
+    /// Expressions to take in the place of contexts.
+    substitutes: Vec<(&'static str, Id)>,
 }
 
 impl<'a, 't> Lowering<'a, 't> {
     pub(crate) fn new(types: &'t Types<'a>, methods: &'t Methods, fold: Fold, stage: StageKind) -> Self {
         let (calls, weights) = (HashMap::new(), HashMap::new());
-        Lowering { types, methods, fold, stage, open: None, calls, weights, substitute: None }
+        Lowering { types, methods, fold, stage, open: None, height: false, calls, weights, substitutes: Vec::new() }
     }
 
-    /// From now on `context` is `id`; nodes that were met before are computed again.
-    pub(crate) fn substitute(&mut self, context: &'static str, id: Id) {
-        self.substitute = Some((context, id));
+    /// From now on these contexts are these expressions; nodes that were met before are computed again.
+    pub(crate) fn substitute(&mut self, substitutes: Vec<(&'static str, Id)>) {
+        self.substitutes = substitutes;
         self.calls.clear();
         self.weights.clear();
     }
@@ -82,7 +84,7 @@ impl<'a, 't> Lowering<'a, 't> {
             }
             stack.push((at, true));
             let info = &self.types.nodes[at];
-            let function = self.function(info.def);
+            let function = self.function(at);
             for (index, input) in info.def.inputs.iter().enumerate().rev() {
                 let wanted = function.arguments.iter().any(|a| matches!(a, Argument::Input(n) if *n == input.name));
                 let source = self.types.sources[at][index].and_then(Source::computed);
@@ -93,7 +95,11 @@ impl<'a, 't> Lowering<'a, 't> {
     }
 
     /// The function that computes a node in this stage under the chosen methods.
-    pub(crate) fn function(&self, def: &'a NodeDef) -> &'a Function {
+    fn function(&self, node: usize) -> &'a Function {
+        let def = self.types.nodes[node].def;
+        if let Some([fragment, vertex]) = def.height_functions.as_ref().filter(|_| self.height && self.filters(node)) {
+            return if self.stage == StageKind::Vertex { vertex } else { fragment };
+        }
         let by_method = def
             .method_functions
             .iter()
@@ -107,9 +113,28 @@ impl<'a, 't> Lowering<'a, 't> {
         }
     }
 
+    /// Whether the pictures of a node are filtered linearly.
+    fn filters(&self, node: usize) -> bool {
+        let inputs = self.types.nodes[node].def.inputs.iter().enumerate();
+        inputs.filter(|(_, input)| input.ty == SocketType::Texture).all(|(index, _)| {
+            let (node, index) = self.picture(node, index);
+            let info = &self.types.nodes[node];
+            let value = info.values.get(&info.def.inputs[index].name);
+            matches!(value, Some(Value::Image(image)) if image.filter == Filter::Linear)
+        })
+    }
+
+    /// The node and the number of its input that hold the picture of an input: it may be handed on from a group's.
+    fn picture(&self, node: usize, index: usize) -> (usize, usize) {
+        match self.types.sources[node][index] {
+            Some(Source::Input { node, input }) => (node, input),
+            _ => (node, index),
+        }
+    }
+
     fn call(&self, arena: &mut Arena<'a>, table: &mut Table, node: usize) -> Result<Id, CodegenError> {
         let info: &NodeInfo<'a> = &self.types.nodes[node];
-        let function = self.function(info.def);
+        let function = self.function(node);
         if self.stage == StageKind::Vertex && function.implicit_derivatives {
             return Err(CodegenError::NotInVertexStage { node: info.id.clone(), label: info.label.to_owned() });
         }
@@ -160,11 +185,7 @@ impl<'a, 't> Lowering<'a, 't> {
             SocketType::Value(ty) => ty,
             SocketType::Generic => info.generic.unwrap_or(Type::F32),
             SocketType::Texture => {
-                // A picture may be handed on from a group's input.
-                let (node, index) = match self.types.sources[node][index] {
-                    Some(Source::Input { node, input }) => (node, input),
-                    _ => (node, index),
-                };
+                let (node, index) = self.picture(node, index);
                 return self.texture(arena, table, node, &self.types.nodes[node].def.inputs[index]);
             }
             SocketType::Surface => {
@@ -218,10 +239,8 @@ impl<'a, 't> Lowering<'a, 't> {
         let Some(context) = halfvector_graph::context::context(name) else {
             return arena.literal(ty, &[0.0]);
         };
-        if let Some((replaced, id)) = self.substitute
-            && replaced == context.name
-        {
-            return id;
+        if let Some((_, id)) = self.substitutes.iter().find(|(replaced, _)| *replaced == context.name) {
+            return *id;
         }
         let expr = Expr::Context(context.name);
         let id = arena.push(Entry { expr, ty: Ty::Value(context.ty), node: None, hint: "" });
@@ -260,7 +279,7 @@ pub(crate) fn lower<'a>(
     let mut table = Table::default();
     let mut vertex = Stage::default();
     let lowered = |stage| Lowering { open, ..Lowering::new(types, methods, fold, stage) };
-    let mut lowering = lowered(StageKind::Vertex);
+    let mut lowering = Lowering { height: true, ..lowered(StageKind::Vertex) };
     if let Some(height) = lowering.surface(&mut vertex.arena, &mut table, "height")? {
         vertex.roots.insert("height", height);
     }
@@ -279,9 +298,15 @@ pub(crate) fn lower<'a>(
             fragment.roots.insert(socket, id);
         }
     }
-    if derived_normal && let Some(height) = lowering.surface(&mut fragment.arena, &mut table, "height")? {
+    // Made apart: what feeds other sockets, too, is read as they like it.
+    let mut heights = Lowering { height: true, ..lowered(StageKind::Fragment) };
+    if derived_normal && let Some(height) = heights.surface(&mut fragment.arena, &mut table, "height")? {
         let normal = normal_from_height(&mut fragment.arena, height);
-        lowering.substitute("world_normal", normal);
+        // Kept for the tangent of a brushed lobe.
+        fragment.roots.insert(DISPLACED_NORMAL, normal);
+        let tangent = fragment.arena.own(Expr::Context("world_tangent"), Type::Vec4, "");
+        let tangent = displaced_tangent(&mut fragment.arena, tangent, normal);
+        lowering.substitute(vec![("world_normal", normal), ("world_tangent", tangent)]);
     }
     for socket in NORMALS {
         if let Some(id) = lowering.surface(&mut fragment.arena, &mut table, socket)? {
@@ -331,10 +356,9 @@ pub(crate) fn lower_height<'a>(
     }))
 }
 
-/// The displaced surface's normal, from screen-space derivatives of the position that is not displaced and of the
-/// height there.
+/// The displaced surface's normal, from screen-space derivatives of its position and of the height there.
 fn normal_from_height<'a>(arena: &mut Arena<'a>, height: Id) -> Id {
-    let position = arena.own(Expr::Context("world_position"), Type::Vec3, "");
+    let position = arena.own(Expr::Context(DISPLACED_POSITION), Type::Vec3, "");
     let normal = arena.own(Expr::Context("world_normal"), Type::Vec3, "");
     let mut derivative = |name, of, ty| arena.own(Expr::Builtin { name, arguments: vec![of] }, ty, "");
     let arguments = vec![
@@ -346,6 +370,19 @@ fn normal_from_height<'a>(arena: &mut Arena<'a>, height: Id) -> Id {
     ];
     arena.own(Expr::Call { function: NORMAL_FROM_HEIGHT, generic: None, arguments }, Type::Vec3, "displaced_normal")
 }
+
+/// A tangent of the old surface as one of the displaced surface, whose normal is given.
+pub(super) fn displaced_tangent<'a>(arena: &mut Arena<'a>, tangent: Id, displaced_normal: Id) -> Id {
+    let normal = arena.own(Expr::Context("world_normal"), Type::Vec3, "");
+    let arguments = vec![normal, tangent, displaced_normal];
+    arena.own(Expr::Call { function: "displaced_tangent", generic: None, arguments }, Type::Vec4, "displaced_tangent")
+}
+
+/// The root that is the displaced surface's normal, where it is derived from the height.
+pub(super) const DISPLACED_NORMAL: &str = "displaced_normal";
+
+/// What stands for the position as it is seen; `world_position` is that before displacement. No node reads it.
+pub(crate) const DISPLACED_POSITION: &str = "displaced_position";
 
 const NORMAL_FROM_HEIGHT: &str = "normal_from_height";
 

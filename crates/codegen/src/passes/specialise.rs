@@ -7,6 +7,7 @@ use halfvector_graph::value::Type;
 use crate::ir::{Expr, Id, Program, Stage};
 use crate::link::Index;
 use crate::passes::fold::fold_stage;
+use crate::passes::lower::{DISPLACED_NORMAL, displaced_tangent};
 use crate::passes::plan::{Constants, Coupling, Known, Metal, Plan, Wanted, decide, metal};
 
 /// Takes the decisions that are the same whatever is folded, on a program whose numbers are folded.
@@ -190,6 +191,15 @@ fn reflectances<'a>(stage: &mut Stage<'a>, metal: Metal, weightless: bool, full:
 /// The tangent that a brushed surface follows, with its handedness: the mesh's, or the pixel's where normal maps take
 /// that one too.
 fn tangent(stage: &mut Stage<'_>, needs: &Needs) -> Id {
+    let tangent = mesh_tangent(stage, needs);
+    match stage.root(DISPLACED_NORMAL) {
+        Some(normal) => displaced_tangent(&mut stage.arena, tangent, normal),
+        None => tangent,
+    }
+}
+
+/// The tangent before displacement.
+fn mesh_tangent(stage: &mut Stage<'_>, needs: &Needs) -> Id {
     if !needs.methods.is("normal", "tbn_derivative") {
         return stage.arena.own(Expr::Context("world_tangent"), Type::Vec4, "");
     }

@@ -85,6 +85,21 @@ fn four_maps() {
     check("examples/flight-helmet-leather, one directional light and environment", &exported(&shipped, &both()), 320);
 }
 
+/// What a height map costs: eight reads of texels where the sampler would do with one, and the slope.
+#[test]
+fn a_height_map() {
+    let relief = |links: &str| {
+        let nodes = r#""relief": {"node": "textures/image", "values": {"image": {"file": "h.png", "color_space": "linear"}}},
+            "height": {"node": "textures/height"}"#;
+        material("", nodes, links)
+    };
+    let raised = r#"{"from": "relief.r", "to": "height.value"}, {"from": "height.out", "to": "surface.height"}"#;
+    check("a height map, one directional light", &exported(&relief(raised), &sun()), 220);
+    check("the same without it", &exported(&relief(""), &sun()), 100);
+    let old = super::methods(&[("height_normals", "report")]);
+    check("the same with the old normals", &exported(&relief(raised), &Needs { methods: old, ..sun() }), 100);
+}
+
 /// Inputs of all lobes over a base of metal and roughness, as JSON and as names.
 const LOBES: [(&str, &str); 14] = [
     ("ior", "1.5"),

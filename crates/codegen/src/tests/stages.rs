@@ -4,6 +4,7 @@ use halfvector_graph::document::{AlphaMode, Document};
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::{Needs, ShaderOutput, ToneMap};
+use halfvector_graph::value::{Filter, Value};
 
 use super::{environment, exported, maps, material, methods, nothing, sun};
 use crate::Shader;
@@ -28,16 +29,59 @@ fn height_moves_the_vertex_and_tilts_the_normal() {
     let shader = exported(&displaced(), &sun());
     let (vertex, fragment) = (part(&shader, "vs_main"), part(&shader, "fs_main"));
     assert!(vertex.contains("displaced(world_position, world_normal, "), "{vertex}");
-    assert!(vertex.contains("node_textures_image_vertex("), "no implicit derivative in the vertex stage\n{vertex}");
-    assert!(fragment.contains("normal_from_height(dpdx(in.surface_position), dpdy(in.surface_position)"), "{fragment}");
+    assert!(
+        vertex.contains("node_textures_image_height_vertex("),
+        "no implicit derivative in the vertex stage\n{vertex}"
+    );
+    // Of the place that is seen, so that curved surfaces are right; nothing else asks for the one before displacement.
+    assert!(fragment.contains("normal_from_height(dpdx(in.world_position), dpdy(in.world_position)"), "{fragment}");
+    assert!(!shader.wgsl.contains("surface_position"));
     let image = shader.reflection.bindings.iter().find(|b| b.name.contains("texture")).expect("the map");
     assert!(image.vertex && image.fragment);
 
     let needs = Needs { methods: methods(&[("height_normals", "report")]), ..sun() };
     let report = exported(&displaced(), &needs);
     assert!(!part(&report, "fs_main").contains("normal_from_height"));
-    assert!(!report.wgsl.contains("surface_position"));
     assert!(report.dropped.iter().any(|d| d.what.contains("normals of the displaced")));
+}
+
+/// Texels of a height are blended by arithmetic, those of anything else by the sampler, and so are those of a map that is
+/// to have steps.
+#[test]
+fn heights_are_blended_by_arithmetic() {
+    let mut document = displaced();
+    document.graph.links.extend(super::document(
+        r#"{"halfvector": 1, "name": "", "nodes": {}, "links": [{"from": "relief.r", "to": "surface.perceptual_roughness"}]}"#,
+    ).graph.links);
+    let fragment = exported(&document, &sun());
+    let fragment = part(&fragment, "fs_main");
+    assert!(
+        fragment.contains("node_textures_image_height(") && fragment.contains("node_textures_image("),
+        "{fragment}"
+    );
+    let Some(Value::Image(image)) = document.graph.nodes.get_mut("relief").and_then(|n| n.values.get_mut("image"))
+    else {
+        panic!("the map");
+    };
+    image.filter = Filter::Nearest;
+    let shader = exported(&document, &sun());
+    assert!(shader.wgsl.contains("node_textures_image_vertex(") && !shader.wgsl.contains("blended"), "{}", shader.wgsl);
+}
+
+/// What is brushed is brushed along the displaced surface, and normal maps lie on it.
+#[test]
+fn tangents_follow_the_displaced_surface() {
+    let mut document = displaced();
+    let values = &mut document.graph.nodes.get_mut("surface").expect("the surface").values;
+    values.insert("anisotropy".into(), Value::Number(0.5));
+    values.insert("metallic".into(), Value::Number(1.0));
+    let shader = exported(&document, &sun());
+    let fragment = part(&shader, "fs_main");
+    assert_eq!(fragment.matches("displaced_tangent(world_normal, in.world_tangent, ").count(), 1, "{fragment}");
+    let needs = Needs { methods: methods(&[("height_normals", "report")]), ..sun() };
+    assert!(!exported(&document, &needs).wgsl.contains("displaced_tangent"));
+    // Without a brushed lobe or a normal map there is none.
+    assert!(!exported(&displaced(), &sun()).wgsl.contains("tangent"));
 }
 
 #[test]

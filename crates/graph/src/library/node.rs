@@ -26,6 +26,7 @@ pub(super) fn read_nodes(
             let doc = grammar::read(&lines, &mut reader.slips);
             taken.push(item.name.clone());
             taken.extend(doc.vertex.iter().map(|(_, function)| function.clone()));
+            taken.extend(doc.height.iter().flat_map(|(_, functions)| functions.clone()));
             taken.extend(doc.methods.iter().map(|(_, _, _, function)| function.clone()));
             taken.extend(doc.outputs.iter().map(|(_, _, function)| function.clone()));
             let def = reader.node(&doc, &item.name);
@@ -100,6 +101,7 @@ impl Reader<'_> {
                 implicit_derivatives: signature.implicit_derivatives,
             },
             vertex_function: None,
+            height_functions: None,
             method_functions: Vec::new(),
             output_functions: Vec::new(),
             forwards: doc.id == REROUTE,
@@ -286,31 +288,24 @@ impl Reader<'_> {
         arguments
     }
 
-    /// The functions that stand in for the node's own: `@vertex`, `@method`, `@output`.
+    /// The functions that stand in for the node's own: `@vertex`, `@height`, `@method`, `@output`.
     fn stand_ins(&mut self, doc: &NodeDoc, def: &mut NodeDef) {
         let own = self.signatures.get(self.source, &def.function.name);
         let own_result = own.map(|signature| signature.result);
-        let vertex = doc.vertex.as_ref();
-        if let Some((line, name, (function, result))) =
-            vertex.and_then(|(line, name)| Some((line, name, self.stand_in(*line, name, def)?)))
-        {
-            if Some(&result) != own_result.as_ref() {
-                self.slip(*line, format!("`{name}` returns another type than the node"));
-            }
-            if function.implicit_derivatives {
-                self.slip(*line, format!("`{name}` takes implicit derivatives, which the vertex stage has not"));
-            }
-            def.vertex_function = Some(function);
+        if let Some((line, name)) = &doc.vertex {
+            def.vertex_function = self.vertex_stand_in(*line, name, def, own_result.as_ref());
+        }
+        if let Some((line, [fragment, vertex])) = &doc.height {
+            let fragment = self.stand_in_of_type(*line, fragment, def, own_result.as_ref());
+            let vertex = self.vertex_stand_in(*line, vertex, def, own_result.as_ref());
+            def.height_functions = fragment.zip(vertex).map(|(fragment, vertex)| [fragment, vertex]);
         }
         for (line, term_name, method, name) in &doc.methods {
             let known = term(term_name).is_some_and(|term| term.methods.iter().any(|m| m.name == method));
             if !known {
                 self.slip(*line, format!("there is no method `{term_name}={method}`"));
             }
-            if let Some((function, result)) = self.stand_in(*line, name, def) {
-                if Some(&result) != own_result.as_ref() {
-                    self.slip(*line, format!("`{name}` returns another type than the node"));
-                }
+            if let Some(function) = self.stand_in_of_type(*line, name, def, own_result.as_ref()) {
                 def.method_functions.push((term_name.clone(), method.clone(), function));
             }
         }
@@ -326,6 +321,36 @@ impl Reader<'_> {
                 def.output_functions.push((output.clone(), function));
             }
         }
+    }
+
+    /// A function for the vertex stage.
+    fn vertex_stand_in(
+        &mut self,
+        line: usize,
+        name: &str,
+        def: &NodeDef,
+        result: Option<&ResultType>,
+    ) -> Option<Function> {
+        let function = self.stand_in_of_type(line, name, def, result)?;
+        if function.implicit_derivatives {
+            self.slip(line, format!("`{name}` takes implicit derivatives, which the vertex stage has not"));
+        }
+        Some(function)
+    }
+
+    /// A function that returns what the node does.
+    fn stand_in_of_type(
+        &mut self,
+        line: usize,
+        name: &str,
+        def: &NodeDef,
+        result: Option<&ResultType>,
+    ) -> Option<Function> {
+        let (function, found) = self.stand_in(line, name, def)?;
+        if Some(&found) != result {
+            self.slip(line, format!("`{name}` returns another type than the node"));
+        }
+        Some(function)
     }
 
     fn stand_in(&mut self, line: usize, name: &str, def: &NodeDef) -> Option<(Function, ResultType)> {

@@ -81,9 +81,10 @@ impl<'m> Lower<'m> {
                 }
                 all.into()
             }
-            Expression::Derivative { axis, expr, .. } => {
+            Expression::Derivative { axis, ctrl, expr } => {
                 let value = self.regs(frame, *expr)?;
-                value.iter().map(|r| self.derivative(*axis, *r)).collect::<Result<_>>()?
+                let coarse = *ctrl == naga::DerivativeControl::Coarse;
+                value.iter().map(|r| self.derivative(*axis, coarse, *r)).collect::<Result<_>>()?
             }
             Expression::Relational { fun, argument } => self.relational(frame, *fun, *argument)?,
             Expression::Math { fun, arg, arg1, arg2, arg3 } => {
@@ -113,9 +114,9 @@ impl<'m> Lower<'m> {
         Ok(Value::Regs(regs))
     }
 
-    fn derivative(&mut self, axis: naga::DerivativeAxis, reg: Reg) -> Result<Reg> {
+    fn derivative(&mut self, axis: naga::DerivativeAxis, coarse: bool, reg: Reg) -> Result<Reg> {
         let class = self.class(reg);
-        let along = |vertical| Op::Derivative { vertical, coarse: false };
+        let along = |vertical| Op::Derivative { vertical, coarse };
         match axis {
             naga::DerivativeAxis::X => self.emit(along(false), class, [reg, NONE, NONE]),
             naga::DerivativeAxis::Y => self.emit(along(true), class, [reg, NONE, NONE]),

@@ -68,8 +68,9 @@ impl Veil<'_, '_> {
             if material.detail.places {
                 geometry.wrap(&mut point);
             }
-            let steps = material.derives.then_some([point.as_slice(), point.as_slice()]);
-            evaluator.surfaces(&point, steps, self.surfaces)?;
+            let beside = point;
+            let steps = material.derives.then_some([beside.as_slice(), beside.as_slice()]);
+            evaluator.surfaces(&mut point, steps, self.surfaces)?;
             let opacity = self.surfaces.first().map_or(1.0, |surface| surface.opacity.clamp(0.0, 1.0));
             share *= match material.settings.alpha_mode {
                 AlphaMode::Mask if opacity < f64::from(material.settings.alpha_cutoff) => 1.0,
