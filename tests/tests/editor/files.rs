@@ -394,6 +394,72 @@ fn unsaved_work_is_recovered_after_a_kill() {
     assert!(place.open_new().query_by_label("Recover").is_none());
 }
 
+/// What is left is told apart, put off and found again, and does not count as open.
+#[test]
+fn two_records_of_one_file_are_recovered_one_after_the_other() {
+    let test = "two_records_of_one_file_are_recovered_one_after_the_other";
+    if let Some(folder) = std::env::var_os(VICTIM) {
+        work_without_saving(Path::new(&folder));
+    }
+    let place = Place::new();
+    let mut victims = [working_victims(test, &place, 1), working_victims(test, &place, 2)];
+    for victim in &mut victims {
+        victim.kill().unwrap();
+        victim.wait().unwrap();
+    }
+    let mut harness = place.open_new();
+    assert_eq!(harness.query_all_by_label("Recover").count(), 2);
+    let path = place.file().canonicalize().unwrap().display().to_string();
+    assert_eq!(harness.query_all_by_label_contains(&path).count(), 2);
+    assert_eq!(harness.query_all_by_label_contains("Never saved” instead of “Worn enamel").count(), 2);
+    assert_eq!(harness.query_all_by_label_contains(" ago").count(), 2);
+    // Put off, it stands in the menu.
+    click(&mut harness, "Later");
+    assert!(harness.query_by_label("Recover").is_none());
+    click(&mut harness, "File");
+    click(&mut harness, "Recover unsaved work…");
+    harness.query_all_by_label("Recover").next().unwrap().click();
+    harness.run_steps(3);
+    settle(&mut harness);
+    assert_eq!(harness.state().session().document().name, "Never saved");
+    assert_eq!(harness.query_all_by_label("Recover").count(), 1, "the other one is still asked about");
+    click(&mut harness, "Later");
+    // The thread looks once a second who else has the file open: what is left is not open.
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_millis(2600) {
+        harness.step();
+        assert!(harness.query_by_label_contains("open in another window").is_none());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    // Whom the question whether to save makes hesitate loses nothing.
+    click(&mut harness, "File");
+    click(&mut harness, "Recover unsaved work…");
+    click(&mut harness, "Recover");
+    click(&mut harness, "Cancel");
+    click(&mut harness, "File");
+    assert!(harness.query_by_label("Recover unsaved work…").is_some());
+}
+
+#[test]
+fn settings_of_two_windows_are_kept_together() {
+    let place = Place::new();
+    let other = place.folder.path().join("other.material.json");
+    std::fs::write(&other, START_MATERIAL).unwrap();
+    let mut first = place.open();
+    let mut second = open(Options { document: Some(other.clone()), folders: place.folders(), ..Options::default() });
+    settle(&mut second);
+    first.ctx.set_zoom_factor(1.25);
+    first.run_steps(2);
+    // Each writes at its end what it has changed, and no more.
+    drop(first);
+    drop(second);
+    let text = std::fs::read_to_string(place.folder.path().join("settings/editor.json")).unwrap();
+    let settings: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(settings["scale"], 1.25, "{text}");
+    let recent: Vec<&str> = settings["recent"].as_array().unwrap().iter().filter_map(|path| path.as_str()).collect();
+    assert_eq!(recent, [other.to_str().unwrap(), place.file().to_str().unwrap()]);
+}
+
 #[test]
 fn what_others_made_of_the_file_since_a_kill_is_not_overwritten_by_recovered_work() {
     if let Some(folder) = std::env::var_os(VICTIM) {
@@ -423,15 +489,21 @@ fn what_others_made_of_the_file_since_a_kill_is_not_overwritten_by_recovered_wor
 
 /// A process that works without saving, once there is a record of its work.
 fn working_victim(test: &str, place: &Place) -> Child {
+    working_victims(test, place, 1)
+}
+
+/// One more process that works without saving, once there are so many records.
+fn working_victims(test: &str, place: &Place, count: usize) -> Child {
     let victim = victim(test, place.folder.path());
     let records = || {
         let files = std::fs::read_dir(place.folder.path().join("recovery")).into_iter().flatten().flatten();
         // What is being written has another name until it is whole.
         let whole = files.filter(|file| file.path().extension().is_some_and(|extension| extension == "json"));
-        whole.filter_map(|file| std::fs::read_to_string(file.path()).ok()).any(|text| text.contains("Never saved"))
+        let texts = whole.filter_map(|file| std::fs::read_to_string(file.path()).ok());
+        texts.filter(|text| text.contains("Never saved")).count()
     };
     let start = Instant::now();
-    while !records() {
+    while records() < count {
         assert!(start.elapsed() < Duration::from_secs(120), "no record is written");
         std::thread::sleep(Duration::from_millis(20));
     }
