@@ -14,6 +14,7 @@ mod library;
 mod measures;
 mod opening;
 mod palette;
+mod recovery;
 mod shipped;
 mod snapshots;
 mod story;
