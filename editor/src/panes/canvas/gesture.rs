@@ -26,7 +26,6 @@ use crate::action::Action;
 const DROP_REACH: f32 = 22.0;
 
 /// What the pointer is doing.
-#[expect(clippy::large_enum_variant, reason = "there is one for each window")]
 #[derive(Debug, Default)]
 pub(super) enum Gesture {
     #[default]
