@@ -20,6 +20,8 @@ pub enum Action {
     },
     /// Ends a row of merged edits: the mouse button is up.
     EndMerge,
+    /// Takes the last step back, and what was undone before it can be done again: a drag that was given up.
+    TakeBack,
     /// Takes the last step back.
     Undo,
     /// Does the last step that was taken back again.

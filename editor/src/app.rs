@@ -176,6 +176,7 @@ impl Editor {
         match action {
             Action::Edit { name, edit, merge } => self.session.edit(name, &edit, merge)?,
             Action::EndMerge => self.session.end_merge(),
+            Action::TakeBack => self.session.take_back()?,
             Action::Undo => return Ok(said("Undone", self.session.undo()?)),
             Action::Redo => return Ok(said("Done again", self.session.redo()?)),
             Action::Select(nodes) => self.session.select(nodes),
@@ -231,6 +232,9 @@ impl Editor {
             let mut behavior = Behavior { session: &self.session, panes: &mut self.panes, actions: &mut actions };
             self.tree.ui(&mut behavior, ui);
         });
+        if layout::is_on(&self.tree, Pane::Viewport) {
+            self.panes.viewport.take_left(ui.ctx());
+        }
         self.tell_dropped();
         self.panes.thumbnails.end_frame(ui.ctx());
         actions.into_iter().for_each(|action| self.act(action));

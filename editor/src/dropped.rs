@@ -10,7 +10,10 @@ use eframe::egui;
 pub(crate) enum Kind {
     Material,
     Model,
+    /// For nothing else.
     Environment,
+    /// An environment, or a value over an input that takes a picture.
+    Radiance,
     /// An environment over the viewport, a node over the graph, a value over an input that takes one.
     Picture,
 }
@@ -22,10 +25,16 @@ fn kind(path: &Path) -> Option<Kind> {
     }
     match path.extension()?.to_str()?.to_lowercase().as_str() {
         "glb" | "gltf" => Some(Kind::Model),
-        "hdr" | "exr" | "hdre" | "ktx2" => Some(Kind::Environment),
+        "hdre" | "ktx2" => Some(Kind::Environment),
+        "hdr" | "exr" => Some(Kind::Radiance),
         "png" | "jpg" | "jpeg" | "tif" | "tiff" | "webp" | "tga" | "bmp" => Some(Kind::Picture),
         _ => None,
     }
+}
+
+/// What an input that takes a picture can hold.
+pub(crate) fn is_picture(kind: Kind) -> bool {
+    matches!(kind, Kind::Picture | Kind::Radiance)
 }
 
 /// Takes the dropped files of the kinds that are wanted.

@@ -9,6 +9,8 @@ use halfvector_graph::value::Value;
 pub(crate) struct History {
     done: Vec<Step>,
     undone: Vec<Step>,
+    /// What could be done again before the last step.
+    given_up: Vec<Step>,
     /// The key of the last step, while more may join it.
     merge: Option<String>,
 }
@@ -30,15 +32,29 @@ impl History {
         merge: Option<String>,
     ) -> Result<(), EditError> {
         let inverse = apply(document, edit)?;
-        self.undone.clear();
+        let undone = std::mem::take(&mut self.undone);
         match self.done.last_mut() {
             Some(step) if merge.is_some() && self.merge == merge => {
                 let before = std::mem::replace(&mut step.inverse, Edit::Many(Vec::new()));
                 step.inverse = joined(inverse, before);
             }
-            _ => self.done.push(Step { name, inverse }),
+            _ => {
+                self.done.push(Step { name, inverse });
+                self.given_up = undone;
+            }
         }
         self.merge = merge;
+        Ok(())
+    }
+
+    /// Takes the last step back as if it had never been: what could be done again before it can be again. Of several in a row only the
+    /// first finds that.
+    pub(crate) fn take_back(&mut self, document: &mut Document) -> Result<(), EditError> {
+        self.merge = None;
+        if let Some(Step { inverse, .. }) = self.done.pop() {
+            apply(document, &inverse)?;
+            self.undone = std::mem::take(&mut self.given_up);
+        }
         Ok(())
     }
 
@@ -61,7 +77,7 @@ impl History {
 
     /// Changes values in all that may come back by undo or redo.
     pub(crate) fn for_each_value(&mut self, change: &mut dyn FnMut(&mut Value)) {
-        for step in self.done.iter_mut().chain(&mut self.undone) {
+        for step in self.done.iter_mut().chain(&mut self.undone).chain(&mut self.given_up) {
             values_of(&mut step.inverse, change);
         }
     }

@@ -1,7 +1,7 @@
 //! The palette: all nodes that can be added, found by words or by category. It changes nothing: who opened it learns which
 //! node was chosen.
 
-mod search;
+pub(crate) mod search;
 
 use std::collections::BTreeSet;
 
@@ -18,7 +18,8 @@ pub(crate) const NEW_FUNCTION: &str = "custom";
 /// How many nodes are remembered as recently used.
 const RECENT: usize = 8;
 const SIZE: Vec2 = vec2(560.0, 380.0);
-const ROW_HEIGHT: f32 = 22.0;
+/// Height of a line of a list.
+pub(crate) const ROW_HEIGHT: f32 = 22.0;
 
 /// The palette. It remembers what was used.
 #[derive(Debug, Default)]
@@ -354,7 +355,7 @@ impl Open {
 }
 
 /// A row of the list. `fold` says whether a category is unfolded.
-fn line(
+pub(crate) fn line(
     ui: &mut egui::Ui,
     is_cursor: bool,
     text: &str,

@@ -305,6 +305,13 @@ impl Session {
         self.history.end_merge();
     }
 
+    /// Takes the last step back as if it had never been.
+    pub(crate) fn take_back(&mut self) -> Result<(), String> {
+        let done = self.history.take_back(Arc::make_mut(&mut self.document)).map_err(|error| error.to_string());
+        self.changed();
+        done
+    }
+
     /// Takes the last step back and returns its name.
     pub(crate) fn undo(&mut self) -> Result<Option<String>, String> {
         let done = self.history.undo(Arc::make_mut(&mut self.document)).map_err(|error| error.to_string());

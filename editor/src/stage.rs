@@ -227,6 +227,13 @@ impl Orbit {
         (across * right + upward * up) * height
     }
 
+    /// As it is seen in a picture of this width over height: what a square one shows is whole in a narrow one, too.
+    pub fn within(self, aspect: f32) -> Orbit {
+        let wider = if aspect.is_finite() && aspect > 0.0 { (1.0 / aspect).clamp(1.0, 8.0) } else { 1.0 };
+        let half = (0.5 * self.vertical_fov.to_radians()).tan() * wider;
+        Orbit { vertical_fov: 2.0 * half.atan().to_degrees(), ..self }
+    }
+
     /// How far in front of the camera a point is.
     pub fn depth(&self, point: Vec3) -> f32 {
         (point - self.camera().position).dot(self.axes()[2])

@@ -1,8 +1,11 @@
 //! The editor without a window: clicks, drags and keys go in, documents and pictures come out.
 
 mod canvas;
+mod cards;
 mod code;
+mod connecting;
 mod files;
+mod frames;
 mod functions;
 mod groups;
 mod hands;
@@ -11,6 +14,8 @@ mod library;
 mod measures;
 mod opening;
 mod palette;
+mod recovery;
+mod shipped;
 mod snapshots;
 mod story;
 mod undo;

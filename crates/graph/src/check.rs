@@ -56,7 +56,7 @@ pub struct Problem {
     pub group: Option<String>,
     /// The node that it stands at; none for the document, or the group, as a whole.
     pub node: Option<NodeId>,
-    /// The node's label, as the editor shows it; in a group after the group's: "Rust \u{25b8} Noise".
+    /// The node's label, as the editor shows it; in a group after the group's: "Rust \u{203a} Noise".
     pub node_label: Option<String>,
     /// The input or output.
     pub socket: Option<String>,
@@ -268,7 +268,7 @@ impl<'a> Checker<'a> {
             return;
         }
         let node_label = self.graph.nodes.contains_key(node).then(|| match self.group {
-            Some((_, label)) => format!("{label} \u{25b8} {}", self.label(node)),
+            Some((_, label)) => format!("{label} \u{203a} {}", self.label(node)),
             None => self.label(node),
         });
         self.findings.problems.push(Problem {

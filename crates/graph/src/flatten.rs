@@ -2,7 +2,7 @@
 //!
 //! The node `rust` of a group becomes a node that hands on the group's inputs, under its own id, so that values and parameters
 //! set on it are found where they were. The group's inside follows, with ids that are paths: `rust/noise` is the node `noise`
-//! of the group that `rust` stands for; labels are paths too, "Rust ▸ Noise". Only what reaches the surface is taken
+//! of the group that `rust` stands for; labels are paths too, "Rust › Noise". Only what reaches the surface is taken
 //! along. Nothing here reads positions.
 
 use std::borrow::Cow;
@@ -134,7 +134,7 @@ impl<'d> Flattening<'d, '_> {
             let mut label = node.label.clone();
             if !part.label.is_empty() {
                 let own = node_label(graph, self.library, id);
-                label = Some(format!("{} \u{25b8} {own}", part.label));
+                label = Some(format!("{} \u{203a} {own}", part.label));
             }
             let kind = match (node.node.as_str(), group_of(&node.node), part.group) {
                 (GROUP_INPUT, _, Some(_)) => {

@@ -301,11 +301,6 @@ impl Editor {
         self.files.after_save = None;
     }
 
-    /// Puts off what was left by other windows: the next start offers it again.
-    pub(crate) fn put_off_lost(&mut self) {
-        self.files.lost.clear();
-    }
-
     /// Brings the record of this window up to date, soon after a change.
     pub(crate) fn keep_soon(&mut self) {
         let unsaved = self.session.is_unsaved();
@@ -349,8 +344,9 @@ impl Editor {
         self.files.settings.scale = self.context.zoom_factor();
         self.files.remembered.1 = Instant::now();
         if self.files.remembered.0 != self.files.settings {
-            self.files.remembered.0 = self.files.settings.clone();
-            self.files.order(Order::Remember(Box::new(self.files.settings.clone())));
+            let settings = self.files.settings.clone();
+            let before = std::mem::replace(&mut self.files.remembered.0, settings.clone());
+            self.files.order(Order::Remember(Box::new([before, settings])));
         }
     }
 

@@ -57,6 +57,11 @@ impl Editor {
                 }
             });
         });
+        if !self.files.lost.is_empty()
+            && ui.button("Recover unsaved work…").on_hover_text("What windows that ended have left").clicked()
+        {
+            self.files.question = Some(Question::Lost);
+        }
         ui.separator();
         if entry(ui, "Save", Command::Save).clicked() {
             actions.push(Action::Save);
@@ -89,15 +94,20 @@ impl Editor {
         let has_selected = !self.session.selection().is_empty();
         for (verb, name, key) in Verb::ALL {
             let button = egui::Button::new(name).shortcut_text(key);
-            if ui.add_enabled(has_selected || verb == Verb::Paste, button).clicked() {
+            let is_for_it = match verb {
+                Verb::Paste => true,
+                Verb::Connect | Verb::DeleteAndHeal => has_selected,
+                _ => has_selected || self.panes.canvas.has_picked(),
+            };
+            if ui.add_enabled(is_for_it, button).clicked() {
                 layout::show(&mut self.tree, Pane::Canvas);
                 self.panes.canvas.ask(verb);
             }
         }
         ui.separator();
-        let nodes = &self.session.graph().nodes;
-        if ui.add_enabled(!nodes.is_empty(), egui::Button::new("Select all")).clicked() {
-            actions.push(Action::Select(nodes.keys().cloned().collect()));
+        if ui.button("Select all").clicked() {
+            layout::show(&mut self.tree, Pane::Canvas);
+            self.panes.canvas.ask(Verb::SelectAll);
         }
         if ui.add_enabled(has_selected, egui::Button::new("Select nothing")).clicked() {
             actions.push(Action::Select(Vec::new()));

@@ -10,6 +10,9 @@ use crate::files::clerk::Order;
 use crate::files::difference::differences;
 use crate::theme;
 
+/// How many changes of what was left are listed.
+const CHANGES_SHOWN: usize = 3;
+
 /// What a dialog asks.
 #[derive(Debug)]
 pub(crate) enum Question {
@@ -90,7 +93,12 @@ impl Editor {
                 self.files.order(Order::Forget(lost));
                 self.files.question = question.filter(|_| !self.files.lost.is_empty());
             }
-            (Answer::Later, _) => self.put_off_lost(),
+            (Answer::Later, _) => {}
+            // What was to be recovered is offered again.
+            (_, Some(Question::Unsaved(Next::Recover(lost)))) => {
+                self.files.lost.push(*lost);
+                self.cancel();
+            }
             _ => self.cancel(),
         }
     }
@@ -133,7 +141,17 @@ impl Editor {
                     ui.set_width(280.0);
                     ui.strong(&lost.record.name);
                     let file = lost.record.file.as_ref().map(|file| file.display().to_string());
-                    ui.weak(format!("{}, {}", file.as_deref().unwrap_or("never saved"), lost.record.age()));
+                    ui.add(
+                        egui::Label::new(egui::RichText::new(file.as_deref().unwrap_or("never saved")).weak()).wrap(),
+                    );
+                    ui.weak(format!("kept {}", lost.record.age()));
+                    let shown = lost.changes.iter().take(CHANGES_SHOWN);
+                    shown.for_each(|line| drop(ui.add(egui::Label::new(egui::RichText::new(line).small()).truncate())));
+                    let more = lost.changes.len().saturating_sub(CHANGES_SHOWN);
+                    if more > 0 {
+                        let rest = lost.changes[CHANGES_SHOWN..].join("\n");
+                        ui.label(egui::RichText::new(format!("and {more} more changes")).small()).on_hover_text(rest);
+                    }
                 });
                 if ui.button("Recover").on_hover_text("Open it here, not saved yet").clicked() {
                     answer = Some(Answer::Recover(place));
@@ -143,7 +161,7 @@ impl Editor {
                 }
             });
         }
-        answer.or(buttons(ui, &[("Later", "Ask again at the next start", Answer::Later)]))
+        answer.or(buttons(ui, &[("Later", "The File menu offers it again, and the next start", Answer::Later)]))
     }
 
     /// Draws what is to be known of the open file, above the panes.

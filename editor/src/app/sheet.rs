@@ -10,6 +10,7 @@ const PANES: &[(&str, &[Hint])] = &[("Graph", GRAPH), ("Viewport", VIEWPORT), ("
 const GRAPH: &[Hint] = &[
     Hint { keys: "Space, Tab", what: "Add a node" },
     Hint { keys: "Enter", what: "Add a node that the selected one feeds" },
+    Hint { keys: "C", what: "Connect the selected node with another one, by words" },
     Hint { keys: "Drag on the ground", what: "Select with a box" },
     Hint { keys: "Middle drag, wheel", what: "Move and zoom the view" },
     Hint { keys: "Home, F, 1", what: "Show all, the selection, life size" },
@@ -22,7 +23,7 @@ const GRAPH: &[Hint] = &[
     Hint { keys: "Double click, Esc", what: "Open a group, leave it" },
     Hint { keys: "Ctrl+J", what: "Frame the selection" },
     Hint { keys: "L", what: "Arrange the nodes" },
-    Hint { keys: "F2", what: "Rename the node" },
+    Hint { keys: "F2", what: "Rename the node, frame or comment" },
 ];
 
 const VIEWPORT: &[Hint] = &[

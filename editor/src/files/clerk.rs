@@ -58,8 +58,8 @@ pub(crate) enum Order {
     },
     /// Remove what a window has left.
     Forget(Lost),
-    /// Write the settings.
-    Remember(Box<Settings>),
+    /// Write the settings: as they were when this window last wrote or read them, and as they are.
+    Remember(Box<[Settings; 2]>),
     /// Write files into a folder.
     Export {
         /// The folder.
@@ -289,7 +289,8 @@ impl Room {
             Order::Forget(lost) => lost.forget(),
             Order::Remember(settings) => {
                 let Some(folder) = &self.folders.settings else { return };
-                if let Err(error) = settings.save(folder) {
+                let [before, now] = *settings;
+                if let Err(error) = now.save_since(&before, folder) {
                     self.tell(Report::Failed(format!("settings could not be kept in {}: {error}", folder.display())));
                 }
             }

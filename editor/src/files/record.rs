@@ -10,7 +10,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+use halfvector_graph::file::{from_json, load, replace};
 use serde::{Deserialize, Serialize};
+
+use crate::files::difference::differences;
 
 /// What a window says of itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,26 +31,40 @@ pub(crate) struct Record {
     pub(crate) written: u64,
     /// The document as text, when the file does not hold it.
     pub(crate) unsaved: Option<String>,
+    /// Whether its window is gone, and another one holds it to offer it: nobody has its file open on its account.
+    #[serde(default)]
+    pub(crate) is_left: bool,
 }
 
 impl Record {
     /// A record of this process, written now.
     pub(crate) fn now(name: &str, file: Option<PathBuf>, known: Option<u64>, unsaved: Option<String>) -> Record {
         let written = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs();
-        Record { process: std::process::id(), name: name.to_owned(), file, known, written, unsaved }
+        Record { process: std::process::id(), name: name.to_owned(), file, known, written, unsaved, is_left: false }
     }
 
     /// How long ago it was written, for people.
     pub(crate) fn age(&self) -> String {
         let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let seconds = now.saturating_sub(Duration::from_secs(self.written)).as_secs();
-        let (number, unit) = match seconds {
-            0..60 => return "just now".to_owned(),
-            60..3600 => (seconds / 60, "minute"),
-            3600..86_400 => (seconds / 3600, "hour"),
-            _ => (seconds / 86_400, "day"),
-        };
-        format!("{number} {unit}{} ago", if number == 1 { "" } else { "s" })
+        let count = |number: u64, unit: &str| format!("{number} {unit}{}", if number == 1 { "" } else { "s" });
+        // Two that were left together are told apart by seconds.
+        match seconds {
+            0..60 => format!("{} ago", count(seconds, "second")),
+            60..3600 => format!("{} {} ago", count(seconds / 60, "minute"), count(seconds % 60, "second")),
+            3600..86_400 => format!("{} {} ago", count(seconds / 3600, "hour"), count(seconds / 60 % 60, "minute")),
+            _ => format!("{} {} ago", count(seconds / 86_400, "day"), count(seconds / 3600 % 24, "hour")),
+        }
+    }
+
+    /// What it holds that its file does not; all that it holds when it has none.
+    fn changes(&self) -> Vec<String> {
+        let unsaved = self.unsaved.as_deref().and_then(|text| from_json(text).ok());
+        let Some(unsaved) = unsaved else { return Vec::new() };
+        match self.file.as_deref().and_then(|file| load(file).ok()) {
+            Some(saved) => differences(&saved, &unsaved),
+            None => vec![format!("{} nodes", unsaved.graph.nodes.len())],
+        }
     }
 }
 
@@ -65,6 +82,8 @@ pub(crate) struct Desk {
 pub(crate) struct Lost {
     /// Its last record, with unsaved work.
     pub(crate) record: Record,
+    /// What was changed in it, a line each.
+    pub(crate) changes: Vec<String>,
     folder: PathBuf,
     name: String,
     /// Held locked, so that no other window offers the same.
@@ -87,17 +106,15 @@ impl Desk {
 
     /// Replaces this window's record.
     pub(crate) fn write(&self, record: &Record) -> io::Result<()> {
-        let text = serde_json::to_vec(record)?;
-        halfvector_graph::file::replace(&record_path(&self.folder, &self.name), &text)
+        write(&self.folder, &self.name, record)
     }
 
     /// The processes of other windows that have this file open.
     pub(crate) fn also_open(&self, file: &Path) -> Vec<u32> {
         let mut processes = Vec::new();
         for name in names(&self.folder).into_iter().filter(|name| *name != self.name) {
-            let Some(record) = read(&self.folder, &name).filter(|record| record.file.as_deref() == Some(file)) else {
-                continue;
-            };
+            let is_of = |record: &Record| record.file.as_deref() == Some(file) && !record.is_left;
+            let Some(record) = read(&self.folder, &name).filter(is_of) else { continue };
             // Locked by its window: it is open.
             if claim(&self.folder, &name).is_none() {
                 processes.push(record.process);
@@ -113,7 +130,12 @@ impl Desk {
         for name in names(&self.folder).into_iter().filter(|name| *name != self.name) {
             let Some(lock) = claim(&self.folder, &name) else { continue };
             match read(&self.folder, &name).filter(|record| record.unsaved.is_some()) {
-                Some(record) => found.push(Lost { record, folder: self.folder.clone(), name, lock }),
+                Some(record) => {
+                    // From now on its lock is held, though its window is gone. When that cannot be written, it is only taken for open.
+                    let _ = write(&self.folder, &name, &Record { is_left: true, ..record.clone() });
+                    let changes = record.changes();
+                    found.push(Lost { record, changes, folder: self.folder.clone(), name, lock });
+                }
                 None => remove(&self.folder, &name, lock),
             }
         }
@@ -159,6 +181,10 @@ fn claim(folder: &Path, name: &str) -> Option<File> {
 
 fn read(folder: &Path, name: &str) -> Option<Record> {
     serde_json::from_slice(&fs::read(record_path(folder, name)).ok()?).ok()
+}
+
+fn write(folder: &Path, name: &str, record: &Record) -> io::Result<()> {
+    replace(&record_path(folder, name), &serde_json::to_vec(record)?)
 }
 
 /// Removes the record first: a lock without record says nothing to anyone.

@@ -1,5 +1,6 @@
 //! What the editor remembers of its user: theme, scale, layout, recent files.
 
+use std::fs::OpenOptions;
 use std::path::{Path, PathBuf};
 
 use eframe::egui;
@@ -56,12 +57,47 @@ impl Settings {
         }
     }
 
-    /// Writes the settings, whole or not at all.
-    pub(crate) fn save(&self, folder: &Path) -> std::io::Result<()> {
+    /// Writes what has changed `since` then, whole or not at all: what other windows have written stays.
+    pub(crate) fn save_since(self, since: &Settings, folder: &Path) -> std::io::Result<()> {
         std::fs::create_dir_all(folder)?;
-        let mut text = serde_json::to_vec_pretty(self)?;
+        // One window after the other; it is unlocked when it is closed.
+        let lock = OpenOptions::new().write(true).create(true).truncate(false).open(folder.join("editor.lock"))?;
+        lock.lock()?;
+        let there = std::fs::read(path(folder)).ok().and_then(|text| serde_json::from_slice::<Settings>(&text).ok());
+        let settings = match there {
+            Some(there) => self.merged(since, there),
+            None => self,
+        };
+        let mut text = serde_json::to_vec_pretty(&settings)?;
         text.push(b'\n');
         halfvector_graph::file::replace(&path(folder), &text)
+    }
+
+    /// What others have written, with what has changed here since.
+    fn merged(self, since: &Settings, theirs: Settings) -> Settings {
+        fn one<T: PartialEq>(now: T, before: &T, theirs: T) -> T {
+            if now == *before { theirs } else { now }
+        }
+        let mut recent = theirs.recent;
+        if self.recent.is_empty() {
+            recent = if since.recent.is_empty() { recent } else { Vec::new() };
+        } else if self.recent != since.recent {
+            // Opened here since: the last one comes first.
+            let known = self.recent.iter().position(|file| Some(file) == since.recent.first());
+            let fresh = &self.recent[..known.unwrap_or(self.recent.len())];
+            let gone =
+                |file: &PathBuf| fresh.contains(file) || (since.recent.contains(file) && !self.recent.contains(file));
+            recent.retain(|file| !gone(file));
+            recent.splice(0..0, fresh.iter().cloned());
+            recent.truncate(MAX_RECENT);
+        }
+        Settings {
+            theme: one(self.theme, &since.theme, theirs.theme),
+            scale: one(self.scale, &since.scale, theirs.scale),
+            recent,
+            last_folder: one(self.last_folder, &since.last_folder, theirs.last_folder),
+            layout: one(self.layout, &since.layout, theirs.layout),
+        }
     }
 
     /// Puts a file at the top of the recent ones.

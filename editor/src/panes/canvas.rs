@@ -7,6 +7,8 @@
 
 mod adding;
 mod arrange;
+mod blocks;
+mod connect;
 mod draw;
 mod edits;
 mod feedback;
@@ -19,6 +21,7 @@ mod keys;
 mod menus;
 mod minimap;
 mod notes;
+mod picked;
 mod rows;
 mod sheet;
 mod tips;
@@ -38,6 +41,7 @@ use crate::session::Session;
 use crate::theme;
 use crate::thumbnails::Thumbnails;
 use adding::Purpose;
+use connect::Connecting;
 use draw::{Brush, Detail};
 use fields::Editing;
 use gesture::Gesture;
@@ -74,8 +78,10 @@ pub(crate) struct Canvas {
     unfolded: Unfolded,
     /// Why something was not done, where, and until when that is shown.
     words: Option<(String, Pos2, f64)>,
-    /// The frame or comment that was chosen.
-    picked: Option<NoteId>,
+    /// The frames and comments that were chosen.
+    picked: BTreeSet<NoteId>,
+    /// What the selected node is to be joined with.
+    connecting: Option<Connecting>,
     keeps_off_grid: bool,
     hides_map: bool,
     /// What the window's menu asks for.
@@ -199,6 +205,7 @@ impl Canvas {
             card.shift = egui::Vec2::ZERO;
         }
         sheet.notes.iter_mut().for_each(|note| note.shown = note.rect);
+        self.picked.retain(|id| sheet.notes.iter().any(|note| note.id == *id));
         let pane = ui.available_rect_before_wrap();
         let response = ui.interact(pane, Id::new("graph canvas"), Sense::click_and_drag());
         ui.advance_cursor_after_rect(pane);
@@ -242,17 +249,21 @@ impl Canvas {
         };
         self.paint(&brush, &sheet, hovered);
         pictures(ui, &brush, &desk, &sheet, thumbnails);
-        self.announce(ui, &mut desk, &sheet);
+        if let Some(socket) = self.announce(ui, &mut desk, &sheet) {
+            self.connect(ui, &mut desk, &sheet, Some(socket));
+        }
         self.paint_gesture(ui, &brush, &desk, &sheet, pointer);
-        self.paint_map(&brush, &sheet);
+        self.paint_map(&brush, &sheet, pointer);
         self.bar(ui, bar, &mut desk, &sheet);
         self.fields(ui, &mut desk, &sheet);
-        let is_asked = self.gesture.is_idle() && !self.palette.is_open() && self.editing.is_none();
+        let is_busy = self.palette.is_open() || self.editing.is_some() || self.connecting.is_some();
+        let is_asked = self.gesture.is_idle() && !is_busy;
         if is_over && !map && is_asked && self.words.is_none() {
             tips::show(&response, &sheet, desk.lens, hovered);
         }
         self.menu(ui, &response, &mut desk, &sheet, hovered);
         self.choose(ui, &mut desk, &sheet);
+        self.show_connecting(ui, &mut desk, &sheet);
         self.paint_words(ui, &brush);
         self.view = Some(desk.lens.view);
         self.sheet = Some(sheet);
@@ -291,7 +302,7 @@ impl Canvas {
     }
 
     fn paint(&self, brush: &Brush<'_>, sheet: &Sheet, hovered: Hit) {
-        brush.notes(sheet, self.picked.as_ref());
+        brush.notes(sheet, &self.picked);
         let lifted = self.gesture.lifted();
         let hovered_wire = match hovered {
             Hit::Wire(wire) if self.gesture.is_idle() => Some(wire),
@@ -314,11 +325,12 @@ impl Canvas {
         }
     }
 
-    /// Tells screen readers what is seen, and does what they ask for.
-    fn announce(&self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) {
+    /// Tells screen readers what is seen, and does what they ask for. Returns the socket that is to be joined with another one.
+    fn announce(&self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) -> Option<(SocketRef, sheet::Side)> {
         use egui::accesskit::{Action as Asked, Role};
         let context = ui.ctx();
         let lens = desk.lens;
+        let mut pressed = None;
         let tell =
             |id: Id, rect: Rect, role: Role, label: &dyn Fn() -> String, value: Option<String>, is_selected: bool| {
                 let told = context.accesskit_node_builder(id, |node| {
@@ -340,7 +352,7 @@ impl Canvas {
         for note in sheet.notes.iter().filter(|note| note.shown.intersects(lens.seen())) {
             let title = Rect::from_min_size(note.shown.min, vec2(note.shown.width(), notes::TITLE));
             let label = || format!("{} {}", if note.kind() == "frame" { "Frame" } else { "Comment" }, note.text);
-            let is_picked = self.picked.as_ref() == Some(&note.id);
+            let is_picked = self.picked.contains(&note.id);
             let id = Id::new(("graph note", note.kind(), &note.id));
             tell(id, lens.rect_to_screen(title), Role::ListItem, &label, None, is_picked);
         }
@@ -348,9 +360,10 @@ impl Canvas {
             let id = Id::new(("graph node", &card.id));
             let label = || format!("Node {}", card.title);
             let header = Rect::from_min_size(card.rect().min, vec2(card.size.x, sheet::HEADER.min(card.size.y)));
-            if !tell(id, lens.rect_to_screen(header), Role::ListItem, &label, None, card.is_selected) {
+            let wrong = card.problems.first().map(|(_, text)| text.clone());
+            if !tell(id, lens.rect_to_screen(header), Role::ListItem, &label, wrong, card.is_selected) {
                 // Nobody listens.
-                return;
+                return None;
             }
             if ui.input(|input| input.has_accesskit_action_request(id, Asked::Click)) {
                 desk.actions.push(Action::Select(vec![card.id.clone()]));
@@ -367,6 +380,9 @@ impl Canvas {
                 let center = lens.to_screen(card.socket(row));
                 let rect = Rect::from_center_size(center, vec2(10.0, 10.0));
                 tell(id, rect, Role::Button, &|| format!("{side} {} of {}", row.name, card.title), None, false);
+                if ui.input(|input| input.has_accesskit_action_request(id, Asked::Click)) {
+                    pressed = Some((SocketRef::new(&card.id, &row.name), row.side));
+                }
             }
             for row in card.rows.iter().filter(|row| row.field.is_editable()) {
                 if let Some(rect) = card.field(row) {
@@ -376,6 +392,7 @@ impl Canvas {
                 }
             }
         }
+        pressed
     }
 
     /// Says at a point of the screen why something was not done.
@@ -430,20 +447,6 @@ impl Canvas {
             if crumb.on_hover_text("Go to this level (Backspace leaves the innermost)").clicked() {
                 desk.actions.push(Action::Enter(path[..depth].to_vec()));
             }
-        }
-    }
-
-    /// Puts the selected cards, or all when fewer than two are selected, in columns.
-    fn arrange(&mut self, desk: &mut Desk<'_>, sheet: &Sheet) {
-        let selected: Vec<usize> = (0..sheet.cards.len()).filter(|&i| sheet.cards[i].is_selected).collect();
-        let chosen = if selected.len() >= 2 { selected } else { (0..sheet.cards.len()).collect() };
-        let corner =
-            Sheet::bounds(chosen.iter().map(|&i| &sheet.cards[i])).map_or(Pos2::ZERO, |rect| view::to_grid(rect.min));
-        let places = arrange::places(&sheet.cards, &sheet.wires, &chosen);
-        let edits: Vec<Edit> =
-            places.into_iter().map(|(i, place)| moved(&sheet.cards[i], corner + place.to_vec2())).collect();
-        if !edits.is_empty() {
-            desk.make("Arrange nodes", Edit::Many(edits));
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What is selected: one node with its inputs, several nodes, or the material itself.
 
+mod channel;
 mod color;
 mod curve;
 mod group;

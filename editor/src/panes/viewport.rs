@@ -269,6 +269,7 @@ impl Viewport {
         let mut has_new = [false; 3];
         for number in 0..count {
             let mut stage = self.stage.clone();
+            stage.orbit = stage.orbit.within(rect.aspect_ratio());
             let choice = self.compare.choice(number);
             if let Some(methods) = &choice.methods {
                 stage.methods = methods.clone();
@@ -329,7 +330,8 @@ impl Viewport {
         if self.compare.drags_divider() {
             // The divider moves instead.
         } else if others || (left && shift) {
-            *orbit = orbit.panned(-drag.x, drag.y);
+            let seen = orbit.within(response.rect.aspect_ratio());
+            orbit.target = seen.panned(-drag.x, drag.y).target;
         } else if left {
             *orbit = orbit.turned(-drag.x * 4.0, drag.y * 4.0);
         }

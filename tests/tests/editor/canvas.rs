@@ -461,6 +461,24 @@ fn a_picture_that_is_dropped_on_the_graph_is_a_node() {
     window.run_steps(2);
     let image = &document(&window).graph.nodes[id].values["image"];
     assert!(matches!(image, Value::Image(image) if image.file.ends_with("moss.png")), "{image:?}");
+    // Over the node it is its picture, also one of radiance, which is an environment elsewhere.
+    let environment = window.state().stage().environment.clone();
+    let sky = folder.path().join("sky.hdr");
+    std::fs::write(&sky, b"no picture yet").expect("written");
+    for (at, file) in [(center(&window, "Node Image"), &sky), (slot, &other), (slot, &sky)] {
+        go(&mut window, at);
+        drop_file(&mut window, file);
+        window.run_steps(2);
+        let image = &document(&window).graph.nodes[id].values["image"];
+        let name = file.file_name().and_then(|name| name.to_str()).expect("a name");
+        assert!(matches!(image, Value::Image(image) if image.file.ends_with(name)), "{image:?}");
+        assert_eq!(window.state().stage().environment, environment);
+    }
+    let viewport = window.get_by_label("Viewport").rect().center() + egui::vec2(0.0, 150.0);
+    go(&mut window, viewport);
+    drop_file(&mut window, &sky);
+    window.run_steps(2);
+    assert_ne!(window.state().stage().environment, environment);
     // Elsewhere it is told what to do.
     let menu = center(&window, "Edit");
     go(&mut window, menu);

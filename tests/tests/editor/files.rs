@@ -1,8 +1,6 @@
 //! Files: nothing is lost, whatever happens, and nothing is overwritten without asking.
 
-use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use egui_kittest::Harness;
@@ -16,56 +14,53 @@ use tempfile::TempDir;
 use super::hands::drop_file;
 use super::{open, settle};
 
-/// Tells a test that it is the process that is to be killed.
-const VICTIM: &str = "HALFVECTOR_TEST_VICTIM";
-
 /// A folder with a material in it, and folders for the editor's own files.
-struct Place {
-    folder: TempDir,
+pub(super) struct Place {
+    pub(super) folder: TempDir,
 }
 
 impl Place {
-    fn new() -> Place {
+    pub(super) fn new() -> Place {
         let place = Place { folder: TempDir::new().unwrap() };
         std::fs::write(place.file(), START_MATERIAL).unwrap();
         place
     }
 
-    fn file(&self) -> PathBuf {
+    pub(super) fn file(&self) -> PathBuf {
         self.folder.path().join("enamel.material.json")
     }
 
-    fn folders(&self) -> Folders {
+    pub(super) fn folders(&self) -> Folders {
         folders_in(self.folder.path())
     }
 
-    fn open(&self) -> Harness<'static, Editor> {
+    pub(super) fn open(&self) -> Harness<'static, Editor> {
         let mut harness = open(Options { document: Some(self.file()), folders: self.folders(), ..Options::default() });
         settle(&mut harness);
         harness
     }
 
-    fn open_new(&self) -> Harness<'static, Editor> {
+    pub(super) fn open_new(&self) -> Harness<'static, Editor> {
         let mut harness = open(Options { folders: self.folders(), ..Options::default() });
         settle(&mut harness);
         harness
     }
 
-    fn read(&self) -> Document {
+    pub(super) fn read(&self) -> Document {
         halfvector_graph::file::load(&self.file()).unwrap()
     }
 }
 
-fn folders_in(path: &Path) -> Folders {
+pub(super) fn folders_in(path: &Path) -> Folders {
     Folders { settings: Some(path.join("settings")), recovery: Some(path.join("recovery")) }
 }
 
-fn rename(name: &str) -> Action {
+pub(super) fn rename(name: &str) -> Action {
     Action::edit("Rename", Edit::SetName { name: name.to_owned() })
 }
 
 /// Draws frames until something is true.
-fn wait_for(harness: &mut Harness<'_, Editor>, what: &str, is_true: impl Fn(&Harness<'_, Editor>) -> bool) {
+pub(super) fn wait_for(harness: &mut Harness<'_, Editor>, what: &str, is_true: impl Fn(&Harness<'_, Editor>) -> bool) {
     let start = Instant::now();
     while !is_true(harness) {
         harness.step();
@@ -74,7 +69,7 @@ fn wait_for(harness: &mut Harness<'_, Editor>, what: &str, is_true: impl Fn(&Har
     }
 }
 
-fn click(harness: &mut Harness<'_, Editor>, button: &str) {
+pub(super) fn click(harness: &mut Harness<'_, Editor>, button: &str) {
     harness.get_by_role_and_label(egui::accesskit::Role::Button, button).click();
     settle(harness);
 }
@@ -368,132 +363,21 @@ fn two_windows_on_one_file_notice_each_other() {
 }
 
 #[test]
-fn unsaved_work_is_recovered_after_a_kill() {
-    if let Some(folder) = std::env::var_os(VICTIM) {
-        work_without_saving(Path::new(&folder));
-    }
+fn settings_of_two_windows_are_kept_together() {
     let place = Place::new();
-    let mut victim = working_victim("unsaved_work_is_recovered_after_a_kill", &place);
-    // While it lives, its work is its own.
-    let other = place.open_new();
-    assert!(other.query_by_label("Recover").is_none());
-    drop(other);
-    victim.kill().unwrap();
-    victim.wait().unwrap();
-    let mut harness = place.open_new();
-    click(&mut harness, "Recover");
-    let session = harness.state().session();
-    assert_eq!(session.document().name, "Never saved");
-    assert!(session.is_unsaved());
-    assert_eq!(session.file().map(|file| file.canonicalize().unwrap()), Some(place.file().canonicalize().unwrap()));
-    assert_eq!(place.read().name, "Worn enamel", "the file is untouched until it is saved");
-    harness.state_mut().act(Action::Save);
-    settle(&mut harness);
-    assert_eq!(place.read().name, "Never saved");
-    drop(harness);
-    assert!(place.open_new().query_by_label("Recover").is_none());
-}
-
-#[test]
-fn what_others_made_of_the_file_since_a_kill_is_not_overwritten_by_recovered_work() {
-    if let Some(folder) = std::env::var_os(VICTIM) {
-        work_without_saving(Path::new(&folder));
-    }
-    let place = Place::new();
-    let test = "what_others_made_of_the_file_since_a_kill_is_not_overwritten_by_recovered_work";
-    let mut victim = working_victim(test, &place);
-    victim.kill().unwrap();
-    victim.wait().unwrap();
-    let mut theirs = place.read();
-    theirs.name = "Theirs".to_owned();
-    halfvector_graph::file::save(&place.file(), &theirs).unwrap();
-    let mut harness = place.open_new();
-    click(&mut harness, "Recover");
-    harness.state_mut().act(Action::Save);
-    settle(&mut harness);
-    assert_eq!(place.read().name, "Theirs");
-    click(&mut harness, "Cancel");
-    wait_for(&mut harness, "the offer", |harness| harness.query_by_label("Reload").is_some());
-    assert_eq!(harness.state().session().document().name, "Never saved");
-    click(&mut harness, "Keep mine");
-    harness.state_mut().act(Action::Save);
-    settle(&mut harness);
-    assert_eq!(place.read().name, "Never saved");
-}
-
-/// A process that works without saving, once there is a record of its work.
-fn working_victim(test: &str, place: &Place) -> Child {
-    let victim = victim(test, place.folder.path());
-    let records = || {
-        let files = std::fs::read_dir(place.folder.path().join("recovery")).into_iter().flatten().flatten();
-        // What is being written has another name until it is whole.
-        let whole = files.filter(|file| file.path().extension().is_some_and(|extension| extension == "json"));
-        whole.filter_map(|file| std::fs::read_to_string(file.path()).ok()).any(|text| text.contains("Never saved"))
-    };
-    let start = Instant::now();
-    while !records() {
-        assert!(start.elapsed() < Duration::from_secs(120), "no record is written");
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    victim
-}
-
-fn work_without_saving(folder: &Path) -> ! {
-    let document = Some(folder.join("enamel.material.json"));
-    let mut harness = open(Options { document, folders: folders_in(folder), ..Options::default() });
-    harness.state_mut().act(rename("Never saved"));
-    loop {
-        harness.step();
-        std::thread::sleep(Duration::from_millis(20));
-    }
-}
-
-/// Starts this test in a process of its own, which goes another way there.
-fn victim(test: &str, folder: &Path) -> Child {
-    Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", &format!("editor::files::{test}"), "--nocapture"])
-        .env(VICTIM, folder)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap()
-}
-
-#[test]
-fn killed_while_saving_loses_nothing() {
-    if let Some(folder) = std::env::var_os(VICTIM) {
-        save_for_ever(&Path::new(&folder).join("enamel.material.json"));
-    }
-    let place = Place::new();
-    for kill in 0..100_u64 {
-        let mut victim = victim("killed_while_saving_loses_nothing", place.folder.path());
-        let mut lines = BufReader::new(victim.stdout.take().unwrap()).lines();
-        // The harness' own words stand in front.
-        let mut said =
-            || lines.by_ref().map_while(Result::ok).find_map(|line| line.strip_prefix("saved ")?.parse::<u64>().ok());
-        let mut last = said().unwrap();
-        // Another moment each time: a save takes about a millisecond.
-        std::thread::sleep(Duration::from_micros(kill * 37 % 2000));
-        victim.kill().unwrap();
-        victim.wait().unwrap();
-        while let Some(number) = said() {
-            last = number;
-        }
-        let document = place.read();
-        let number: u64 = document.name.parse().unwrap();
-        assert!(number == last || number == last + 1, "{last} was saved, {number} is there");
-        assert_eq!(document.name, document.parameters[0].label.clone().unwrap(), "half of a document");
-    }
-}
-
-/// Saves one document after the other, and says which one is done.
-fn save_for_ever(path: &Path) -> ! {
-    let mut document = halfvector_graph::file::load(path).unwrap();
-    for number in 0_u64.. {
-        document.name = number.to_string();
-        document.parameters[0].label = Some(number.to_string());
-        halfvector_graph::file::save(path, &document).unwrap();
-        println!("saved {number}");
-    }
-    unreachable!("there is no end of numbers")
+    let other = place.folder.path().join("other.material.json");
+    std::fs::write(&other, START_MATERIAL).unwrap();
+    let mut first = place.open();
+    let mut second = open(Options { document: Some(other.clone()), folders: place.folders(), ..Options::default() });
+    settle(&mut second);
+    first.ctx.set_zoom_factor(1.25);
+    first.run_steps(2);
+    // Each writes at its end what it has changed, and no more.
+    drop(first);
+    drop(second);
+    let text = std::fs::read_to_string(place.folder.path().join("settings/editor.json")).unwrap();
+    let settings: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(settings["scale"], 1.25, "{text}");
+    let recent: Vec<&str> = settings["recent"].as_array().unwrap().iter().filter_map(|path| path.as_str()).collect();
+    assert_eq!(recent, [other.to_str().unwrap(), place.file().to_str().unwrap()]);
 }

@@ -1,9 +1,9 @@
 //! The inside of a group: its sockets are changed with all uses, its nodes have pictures, and drags in it are one small step.
 
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use halfvector_editor::{Action, Editor, Options, egui};
-use halfvector_graph::document::{Document, Link, SocketRef};
+use halfvector_graph::document::{Document, Link, Node, SocketRef};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::file::to_json;
 use halfvector_graph::library::Library;
@@ -41,6 +41,18 @@ fn names(window: &Window) -> [Vec<String>; 2] {
     let interface = &document(window).groups["coat"].interface;
     let inputs = interface.inputs.iter().map(|input| input.name.clone()).collect();
     [inputs, interface.outputs.iter().map(|output| output.name.clone()).collect()]
+}
+
+#[test]
+fn a_group_shows_what_is_wrong_inside() {
+    let mut window = inside();
+    let odd = Edit::AddNode { id: "odd".into(), node: Node::new("math/nothing") };
+    window.state_mut().act(Action::edit("Add", Edit::In { group: "coat".into(), edit: Box::new(odd) }));
+    window.state_mut().act(Action::Enter(Vec::new()));
+    window.run_steps(3);
+    let told = window.get_by_label("Node Coat").accesskit_node().value();
+    assert!(told.as_deref().is_some_and(|told| told.starts_with("Inside, ")), "{told:?}");
+    assert_eq!(window.get_by_label("Node Rust grain").accesskit_node().value(), None);
 }
 
 #[test]

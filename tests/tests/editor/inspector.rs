@@ -230,3 +230,29 @@ fn several_nodes_are_deleted_together() {
     let nodes = &document(&harness).graph.nodes;
     assert!(!nodes.contains_key("chips") && !nodes.contains_key("grain"));
 }
+
+/// What of a picture is used, and which way its normals run, is set where the picture is.
+#[test]
+fn a_picture_has_its_channel_and_the_sign_of_its_normals() {
+    let document_file = crate::support::root().join("examples/painted-panel.material.json");
+    let mut harness = open(Options { document: Some(document_file), ..Options::default() });
+    harness.run_steps(3);
+    let choose = |harness: &mut Harness<'_, Editor>, node: &str, what: &str, entry: &str| {
+        select(harness, node);
+        harness.get_by_role_and_label(Role::ComboBox, what).click();
+        harness.run_steps(3);
+        harness.get_by_role_and_label(Role::Button, entry).click();
+        harness.run_steps(3);
+    };
+    choose(&mut harness, "bumps", "normals", "-Y (DirectX)");
+    assert_eq!(value(&harness, "normal", "flip_y"), Some(Value::Bool(true)));
+    choose(&mut harness, "roughness", "channel", "g");
+    let fed = |harness: &Harness<'_, Editor>| {
+        document(harness).graph.incoming(&SocketRef::new("surface", "perceptual_roughness")).map(SocketRef::to_string)
+    };
+    assert_eq!(fed(&harness).as_deref(), Some("roughness.g"));
+    assert_eq!(harness.state().session().steps()[0], Some("Choose the channel"));
+    // A picture that feeds no normal map has no sign.
+    assert!(harness.query_by_role_and_label(Role::ComboBox, "normals").is_none());
+    assert_eq!(document(&harness).graph.links.len(), 9);
+}

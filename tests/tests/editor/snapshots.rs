@@ -110,6 +110,15 @@ fn every_character_is_in_the_fonts() {
     for place in ["editor", "shaders/nodes", "examples"] {
         characters(&root().join(place), &mut found);
     }
+    // Labels and problems come from the graph, which writes them as escapes.
+    for file in ["check.rs", "flatten.rs", "file/instance.rs", "operation/wire.rs", "operation/collapse.rs"] {
+        let path = root().join("crates/graph/src").join(file);
+        let text = std::fs::read_to_string(&path).expect("text");
+        for rest in text.split("\\u{").skip(1) {
+            let code = rest.split('}').next().and_then(|digits| u32::from_str_radix(digits, 16).ok());
+            found.entry(code.and_then(char::from_u32).expect("a character")).or_insert(path.clone());
+        }
+    }
     assert!(found.len() > 8, "{found:?}");
     let mut window = Harness::new_ui(|_| {});
     window.step();

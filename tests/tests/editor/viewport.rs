@@ -273,3 +273,16 @@ fn green() -> Vec<u8> {
         .expect("coded");
     bytes.into_inner()
 }
+
+/// What a square picture shows whole is whole in one that is higher than wide, and a wide one is as it was.
+#[test]
+fn a_narrow_picture_cuts_nothing_off() {
+    let window = open(Options::default());
+    let orbit = window.state().stage().orbit;
+    assert!((orbit.within(2.0).vertical_fov - orbit.vertical_fov).abs() < 1e-4);
+    let narrow = orbit.within(0.5);
+    let edge = |orbit: halfvector_editor::Orbit| orbit.project(glam::Vec3::X).expect("before the camera")[0];
+    // In shares of the height: a square one is 0.5 wide on each side, this one 0.25.
+    assert!((edge(narrow) - 0.5 * edge(orbit)).abs() < 1e-4);
+    assert!(orbit.within(f32::NAN).vertical_fov.is_finite() && orbit.within(0.0).vertical_fov.is_finite());
+}

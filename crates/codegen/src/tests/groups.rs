@@ -127,7 +127,7 @@ fn a_group_is_the_shader_of_its_nodes() {
 #[test]
 fn lines_and_names_say_where_in_which_group() {
     let shader = exported(&grouped(""), &sun());
-    assert!(shader.wgsl.contains("// First \u{25b8} grain \u{25b8} Noise"), "{}", shader.wgsl);
+    assert!(shader.wgsl.contains("// First \u{203a} grain \u{203a} Noise"), "{}", shader.wgsl);
     assert!(shader.wgsl.contains("let rust_more ="), "{}", shader.wgsl);
     let of_node = |id: &str| shader.segments.iter().any(|s| s.origin == Origin::Node(id.into()));
     assert!(of_node("first/grain/noise") && of_node("second/dye") && !of_node("first/dye"));
@@ -141,7 +141,7 @@ fn the_line_map_names_lines() {
     let map = line_map(&shader);
     let of = |origin: &Origin| map.iter().find(|l| l.origin == *origin).map(|l| lines[l.first - 1..l.last].to_vec());
     let noise = of(&Origin::Node("first/grain/noise".into())).expect("its line");
-    assert!(noise.len() == 1 && noise[0].ends_with("// First \u{25b8} grain \u{25b8} Noise"), "{noise:?}");
+    assert!(noise.len() == 1 && noise[0].ends_with("// First \u{203a} grain \u{203a} Noise"), "{noise:?}");
     let file = of(&Origin::Library("nodes/procedural/value_noise.wgsl".into())).expect("its lines");
     assert_eq!(file.first(), Some(&"// ---- nodes/procedural/value_noise.wgsl"));
     assert!(map.windows(2).all(|pair| pair[0].last < pair[1].first), "in order, without overlap");
@@ -242,7 +242,7 @@ fn what_is_wrong_with_groups_is_told() {
     assert!(
         error
             .to_string()
-            .contains("\u{201c}Rust \u{25b8} grain\u{201d} (grain in group rust): there is no group `grain`"),
+            .contains("\u{201c}Rust \u{203a} grain\u{201d} (grain in group rust): there is no group `grain`"),
         "{error}"
     );
 }

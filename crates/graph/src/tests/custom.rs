@@ -8,7 +8,7 @@ use super::{document, small};
 use crate::check::{Severity, check};
 use crate::file::{from_json, group_from_json, group_to_json};
 use crate::library::custom::{CodeError, MAX_BYTES, read_function};
-use crate::operation::{collapse, copy, export_group, import_group, paste};
+use crate::operation::{Pick, collapse, copy, export_group, import_group, paste};
 use crate::value::{SocketType, Type};
 
 /// A function `name(x: f32) -> f32` with this body, and items beside it.
@@ -311,7 +311,7 @@ fn functions_go_along() {
         "links": [{"from": "n.out", "to": "surface.height"}]}"#;
     let mut d = from_json(json).unwrap_or_else(|e| panic!("{e}"));
     d.functions.insert("test".into(), text("return x;", ""));
-    let text_of = copy(&d, None, &["n".into()]);
+    let text_of = copy(&d, None, &Pick::nodes(["n".into()]));
     let mut other = document(&[], &[]);
     other.functions.insert("test".into(), text("return 2.0 * x;", ""));
     let (edit, _) = paste(&other, small(), None, &text_of, [0.0; 2]).expect("an edit");

@@ -81,14 +81,14 @@ fn a_group_is_a_node_of_its_document() {
 fn problems_inside_name_the_path() {
     let mut d = banded();
     d.groups.get_mut("band").expect("band").graph.nodes.insert("m".into(), Node::new("math/mixx"));
-    told(&d, Severity::Error, "\u{201c}Band \u{25b8} m\u{201d} (m in group band): there is no node `math/mixx`");
+    told(&d, Severity::Error, "\u{201c}Band \u{203a} m\u{201d} (m in group band): there is no node `math/mixx`");
     let mut d = banded();
     d.groups.get_mut("band").expect("band").graph.links[2] = link("in.uv", "m.t");
-    told(&d, Severity::Error, "\u{201c}Band \u{25b8} Mix\u{201d} (m in group band), t: it takes a f32");
+    told(&d, Severity::Error, "\u{201c}Band \u{203a} Mix\u{201d} (m in group band), t: it takes a f32");
     told(
         &d,
         Severity::Warning,
-        "\u{201c}Band \u{25b8} separate\u{201d} (s in group band): the node does not reach the group's outputs"
+        "\u{201c}Band \u{203a} separate\u{201d} (s in group band): the node does not reach the group's outputs"
             .replace("separate", "Separate")
             .as_str(),
     );
@@ -168,8 +168,8 @@ fn taken_apart_a_group_is_its_nodes() {
     assert_eq!(graph.incoming(&socket("a/m.a")), Some(&socket("a.x")));
     assert_eq!(graph.incoming(&socket("b.x")), Some(&socket("a/output.out")));
     assert_eq!(graph.incoming(&socket("surface.perceptual_roughness")), Some(&socket("b/output.out")));
-    assert_eq!(graph.nodes["a/m"].label.as_deref(), Some("First \u{25b8} Mix"));
-    assert_eq!(graph.nodes["b/s"].label.as_deref(), Some("Band \u{25b8} Separate"));
+    assert_eq!(graph.nodes["a/m"].label.as_deref(), Some("First \u{203a} Mix"));
+    assert_eq!(graph.nodes["b/s"].label.as_deref(), Some("Band \u{203a} Separate"));
     assert_eq!(
         find(&d, "a/m").map(|(group, id, node)| (group, id, node.node.as_str())),
         Some((Some("band"), "m", "math/mix"))

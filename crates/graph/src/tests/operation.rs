@@ -4,11 +4,11 @@ use proptest::prelude::*;
 
 use super::{any_document, document, link, small, socket};
 use crate::check::{Severity, check};
-use crate::document::{Document, Group, GroupOutput, Node, Parameter};
+use crate::document::{Comment, Document, Frame, Group, GroupOutput, Node, Parameter, Rect};
 use crate::edit::{Edit, apply};
 use crate::file::{from_json, group_from_json, group_to_json, to_json};
 use crate::operation::{
-    GroupSide, can_connect, collapse, copy, export_group, import_group, insert_on_link, paste, remove_and_heal,
+    GroupSide, Pick, can_connect, collapse, copy, export_group, import_group, insert_on_link, paste, remove_and_heal,
     rename_socket, ungroup,
 };
 use crate::value::{Type, Value};
@@ -153,22 +153,41 @@ fn groups_go_into_files_and_other_documents() {
 #[test]
 fn nodes_are_copied_with_their_wires() {
     let d = chain();
-    let text = copy(&d, None, &ids(&["c", "m", "surface"]));
+    let text = copy(&d, None, &Pick::nodes(ids(&["c", "m", "surface"])));
     let copied = from_json(&text).expect("a document");
     assert_eq!((copied.graph.nodes.len(), copied.graph.links.len(), copied.parameters.len()), (3, 2, 0));
     let (edit, new) = paste(&d, small(), None, &text, [500.0, 600.0]).expect("an edit");
-    assert_eq!(new, ["c_2", "m_2"], "a material has one surface");
+    assert_eq!(new.nodes, ["c_2", "m_2"], "a material has one surface");
     let after = made(&d, &edit);
     assert_eq!(after.graph.incoming(&socket("m_2.a")), Some(&socket("c_2.out")));
     assert_eq!((after.graph.layout["c_2"], after.graph.layout["m_2"]), ([500.0, 600.0], [600.0, 600.0]));
     assert!(paste(&d, small(), None, "not a document", [0.0; 2]).is_err());
     // A group goes along, but not into itself.
     let d = made(&d, &collapse(&d, small(), None, &ids(&["m", "n"]), "Two").expect("a group"));
-    let text = copy(&d, None, &ids(&["two"]));
+    let text = copy(&d, None, &Pick::nodes(ids(&["two"])));
     let (edit, _) = paste(&document(&[], &[]), small(), None, &text, [0.0; 2]).expect("an edit");
     assert!(made(&document(&[], &[]), &edit).groups.contains_key("two"));
     let why = paste(&d, small(), Some("two"), &text, [0.0; 2]).expect_err("a refusal");
     assert!(why.to_string().contains("a group cannot hold itself"));
+}
+
+#[test]
+fn frames_and_comments_are_copied_too() {
+    let mut d = chain();
+    let rect = |x: f32| Rect { position: [x, 10.0], size: [100.0, 60.0] };
+    d.graph.frames.insert("f".into(), Frame { title: "Rust".into(), rect: rect(0.0), ..Frame::default() });
+    d.graph.comments.insert("n".into(), Comment { text: "why".into(), rect: rect(40.0), ..Comment::default() });
+    let pick = Pick { frames: vec!["f".into()], comments: vec!["n".into()], ..Pick::default() };
+    let text = copy(&d, None, &pick);
+    let (edit, new) = paste(&d, small(), None, &text, [500.0, 600.0]).expect("an edit");
+    assert_eq!((new.frames.as_slice(), new.comments.as_slice()), (&["f_2".to_owned()][..], &["n_2".to_owned()][..]));
+    let after = made(&d, &edit);
+    assert_eq!(
+        (after.graph.frames["f_2"].title.as_str(), after.graph.frames["f_2"].rect.position),
+        ("Rust", [500.0, 600.0])
+    );
+    assert_eq!(after.graph.comments["n_2"].rect.position, [540.0, 600.0]);
+    assert_eq!(after.graph.nodes, d.graph.nodes);
 }
 
 #[test]
@@ -226,7 +245,7 @@ proptest! {
             remove_and_heal(&d, small(), group, &pick),
             ungroup(&d, small(), group, &pick[0]),
         ];
-        let text = copy(&d, group, &pick);
+        let text = copy(&d, group, &Pick { nodes: pick.clone(), frames: pick.clone(), comments: pick });
         edits.push(paste(&d, small(), group, &text, [1.0, 2.0]).map(|(edit, _)| edit));
         for edit in edits.into_iter().flatten() {
             let mut after = d.clone();

@@ -5,12 +5,13 @@ use halfvector_graph::check::node_label;
 use halfvector_graph::document::{Link, Node, SocketRef, free_name, group_of};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::node_def::NodeDef;
+use halfvector_graph::value::SocketType;
 
 use super::fit::{self, Loose};
-use super::sheet::{Sheet, shown};
-use super::{Canvas, Desk, edits, view};
+use super::sheet::{ROW, Row, Sheet, Side, shown};
+use super::{Canvas, Desk, edits, hit, view};
 use crate::action::Action;
-use crate::dropped::{Kind, take};
+use crate::dropped::{Kind, is_picture, take};
 use crate::functions;
 use crate::palette::{self, Outcome};
 use crate::pictures;
@@ -93,9 +94,14 @@ impl Canvas {
         desk.arrive(sheet, format!("Add {}", def.label), arrival);
     }
 
-    /// Adds a node for each picture that is dropped on the graph, one below the other.
+    /// Gives a picture that is dropped on a node to its input, and adds a node for each that is dropped beside them, one below the
+    /// other.
     pub(super) fn take_dropped(&self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, pointer: Option<Pos2>) {
         let Some(at) = pointer.filter(|at| desk.lens.pane.contains(*at)) else { return };
+        if let Some(socket) = picture_input(desk, sheet, at) {
+            let files = take(ui.ctx(), is_picture);
+            desk.actions.extend(files.first().map(|path| pictures::chosen(desk.session, &socket, path)));
+        }
         let mut all = edits::Arrival::default();
         let mut place = view::to_grid(desk.lens.to_canvas(at));
         for path in take(ui.ctx(), |kind| kind == Kind::Picture) {
@@ -121,4 +127,14 @@ impl Canvas {
         desk.arrive(sheet, "New function", arrival);
         desk.actions.push(Action::EditFunction(id));
     }
+}
+
+/// The input for pictures of the node at a point of the screen: the one on that line, or the first.
+fn picture_input(desk: &Desk<'_>, sheet: &Sheet, at: Pos2) -> Option<SocketRef> {
+    let card = &sheet.cards[hit::card_at(sheet, desk.lens, at)?];
+    let y = desk.lens.to_canvas(at).y - card.rect().top();
+    let takes = |row: &&Row| row.side == Side::Input && row.ty == SocketType::Texture && !row.is_wired;
+    let rows = || card.rows.iter().filter(takes);
+    let row = rows().find(|row| (row.y - y).abs() <= ROW / 2.0).or_else(|| rows().next())?;
+    Some(SocketRef::new(&card.id, &row.name))
 }

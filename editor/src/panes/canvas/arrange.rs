@@ -4,7 +4,7 @@
 //! Sugiyama, Tagawa and Toda 1981, "Methods for visual understanding of hierarchical system structures": layers by the
 //! longest path, then orders by barycentres, swept from right to left and back.
 
-use eframe::egui::{Pos2, pos2};
+use eframe::egui::{Pos2, Vec2, pos2};
 
 use super::sheet::{Card, Wire};
 use super::view::to_grid;
@@ -15,26 +15,34 @@ const SWEEPS: usize = 6;
 
 /// Places for the given cards, with the corner of them all at the origin.
 pub(super) fn places(cards: &[Card], wires: &[Wire], chosen: &[usize]) -> Vec<(usize, Pos2)> {
-    let mut place_of = vec![usize::MAX; cards.len()];
-    chosen.iter().enumerate().for_each(|(place, &card)| place_of[card] = place);
-    // Wires by the lower row of the socket, so that neighbours keep the order of a card's inputs.
-    let mut edges: Vec<[usize; 3]> = wires
-        .iter()
-        .filter(|wire| place_of[wire.from.0] != usize::MAX && place_of[wire.to.0] != usize::MAX)
-        .map(|wire| [place_of[wire.from.0], place_of[wire.to.0], wire.to.1])
-        .filter(|[from, to, _]| from != to)
-        .collect();
-    edges.sort_unstable();
-    let columns = ordered(columns(chosen.len(), &edges), &edges, chosen.len());
+    let sizes: Vec<Vec2> = chosen.iter().map(|&card| cards[card].size).collect();
+    let mut place_of = vec![None; cards.len()];
+    chosen.iter().enumerate().for_each(|(place, &card)| place_of[card] = Some(place));
+    let places = places_of(&sizes, edges(wires, &place_of));
+    chosen.iter().copied().zip(places).collect()
+}
 
+/// Wires between what cards belong to, as from, to and the row of the input; each once. Those within one thing are left out.
+pub(super) fn edges(wires: &[Wire], thing_of: &[Option<usize>]) -> Vec<[usize; 3]> {
+    let ends = wires.iter().filter_map(|wire| Some([thing_of[wire.from.0]?, thing_of[wire.to.0]?, wire.to.1]));
+    let mut edges: Vec<[usize; 3]> = ends.filter(|[from, to, _]| from != to).collect();
+    // By the row of the socket, so that neighbours keep the order of a card's inputs.
+    edges.sort_unstable();
+    edges.dedup();
+    edges
+}
+
+/// Places for things of these sizes, with the corner of them all at the origin.
+pub(super) fn places_of(sizes: &[Vec2], edges: Vec<[usize; 3]>) -> Vec<Pos2> {
+    let columns = ordered(columns(sizes.len(), &edges), &edges, sizes.len());
     let mut right = 0.0;
-    let mut out: Vec<(usize, Pos2)> = Vec::with_capacity(chosen.len());
-    let mut middle = vec![0.0; chosen.len()];
+    let mut out = vec![Pos2::ZERO; sizes.len()];
+    let mut middle = vec![0.0; sizes.len()];
     for column in &columns {
-        let width = column.iter().map(|&i| cards[chosen[i]].size.x).fold(0.0, f32::max);
+        let width = column.iter().map(|&i| sizes[i].x).fold(0.0, f32::max);
         right -= width;
-        let heights: f32 = column.iter().map(|&i| cards[chosen[i]].size.y + GAP[1]).sum();
-        // A card stands beside what it feeds, and no higher than its upper neighbour's end.
+        let heights: f32 = column.iter().map(|&i| sizes[i].y + GAP[1]).sum();
+        // A thing stands beside what it feeds, and no higher than its upper neighbour's end.
         let wanted: Vec<f32> = column
             .iter()
             .map(|&i| mean(edges.iter().filter(|edge| edge[0] == i).map(|edge| middle[edge[1]])).unwrap_or(0.0))
@@ -42,15 +50,14 @@ pub(super) fn places(cards: &[Card], wires: &[Wire], chosen: &[usize]) -> Vec<(u
         let start = mean(wanted.iter().copied()).unwrap_or(0.0) - (heights - GAP[1]) / 2.0;
         let mut y = start;
         for &i in column {
-            let size = cards[chosen[i]].size;
-            middle[i] = y + size.y / 2.0;
-            out.push((chosen[i], pos2(right + width - size.x, y)));
-            y += size.y + GAP[1];
+            middle[i] = y + sizes[i].y / 2.0;
+            out[i] = pos2(right + width - sizes[i].x, y);
+            y += sizes[i].y + GAP[1];
         }
         right -= GAP[0];
     }
-    let corner = out.iter().fold(pos2(f32::INFINITY, f32::INFINITY), |corner, (_, place)| corner.min(*place));
-    out.iter().map(|(card, place)| (*card, to_grid((*place - corner).to_pos2()))).collect()
+    let corner = out.iter().fold(pos2(f32::INFINITY, f32::INFINITY), |corner, place| corner.min(*place));
+    out.iter().map(|place| to_grid((*place - corner).to_pos2())).collect()
 }
 
 /// The cards by the longest way to an end, which is column 0. Wires that close a ring are overlooked.

@@ -145,11 +145,7 @@ impl Brush<'_> {
                 radius,
                 header_color,
             );
-            // From afar the name alone, no smaller than it can be read, where the card has room for it.
-            if rect.width() >= 34.0 && rect.height() >= 14.0 {
-                let at = pos2(rect.left() + 3.0, rect.center().y + HEADER * zoom / 2.0);
-                self.text(at, Align2::LEFT_CENTER, &card.title, 9.0 / zoom, self.colors.text, rect.width() - 6.0);
-            }
+            self.name_from_afar(card, rect);
             return;
         }
         if self.detail == Detail::Full {
@@ -162,8 +158,12 @@ impl Brush<'_> {
         self.painter.rect_filled(header, top, header_color);
         let mark = !card.problems.is_empty();
         let room = header.width() - (MARGIN * 2.0 + if mark { 36.0 } else { 18.0 }) * zoom;
-        let at = pos2(header.left() + MARGIN * zoom, header.center().y);
-        self.text(at, Align2::LEFT_CENTER, &card.title, TITLE_SIZE, self.colors.title, room);
+        if self.detail == Detail::Full {
+            let at = pos2(header.left() + MARGIN * zoom, header.center().y);
+            self.text(at, Align2::LEFT_CENTER, &card.title, TITLE_SIZE, self.colors.title, room);
+        } else {
+            self.name_from_afar(card, rect);
+        }
         if card.has_picture() && self.detail == Detail::Full {
             let center = self.lens.to_screen(card.toggle());
             let color = self.colors.title.gamma_multiply(if card.picture().is_some() { 0.9 } else { 0.45 });
@@ -178,6 +178,27 @@ impl Brush<'_> {
         for row in &card.rows {
             self.row(card, row, rect);
         }
+    }
+
+    /// The name on the whole card, in as many lines as there is room for, no smaller than it can be read.
+    fn name_from_afar(&self, card: &Card, rect: Rect) {
+        let body = rect.with_min_y(rect.top() + HEADER * self.lens.view.zoom).shrink2(vec2(5.0, 1.0));
+        if body.width() < 16.0 || body.height() < 6.0 {
+            return;
+        }
+        let laid = |size: f32| {
+            let format = TextFormat::simple(FontId::proportional(size), self.colors.text);
+            let mut job = LayoutJob::single_section(card.title.clone(), format);
+            let rows = (body.height() / (size * 1.2)).floor().max(1.0);
+            job.wrap = TextWrapping { max_width: body.width(), max_rows: rows as usize, ..TextWrapping::default() };
+            self.painter.layout_job(job)
+        };
+        let mut galley = laid(9.5);
+        if galley.elided || galley.size().y > body.height() {
+            galley = laid(7.0);
+        }
+        let at = pos2(body.left(), body.center().y - galley.size().y / 2.0);
+        self.painter.with_clip_rect(rect.intersect(self.painter.clip_rect())).galley(at, galley, self.colors.text);
     }
 
     fn row(&self, card: &Card, row: &Row, rect: Rect) {
@@ -283,13 +304,14 @@ impl Brush<'_> {
                     self.painter.add(Shape::line(vec![at(0.25, 0.52), at(0.43, 0.7), at(0.77, 0.3)], stroke));
                 }
             }
-            Field::Vector { text, .. } => {
+            Field::Vector(_) => {
+                let text = field.text();
                 self.painter.rect_filled(rect, radius, fade(self.colors.field));
                 let at = rect.right_center() - vec2(5.0 * zoom, 0.0);
                 self.text(
                     at,
                     Align2::RIGHT_CENTER,
-                    text,
+                    &text,
                     ROW_SIZE - 0.5,
                     fade(self.colors.text),
                     rect.width() - 8.0 * zoom,

@@ -60,7 +60,7 @@ impl Canvas {
                     _ => brush.loose_wire(end, fixed, color),
                 }
             }
-            Gesture::Idle | Gesture::Pan | Gesture::Note { .. } | Gesture::Number { .. } => {}
+            Gesture::Idle | Gesture::Pan | Gesture::Resize { .. } | Gesture::Number { .. } => {}
         }
     }
 }

@@ -5,8 +5,9 @@ use halfvector_graph::document::{NodeId, SocketRef};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::value::Value;
 
+use super::gesture::Gesture;
 use super::notes::{self, NoteId};
-use super::sheet::{Field, HEADER, Sheet, Side, number};
+use super::sheet::{Card, Field, HEADER, Sheet, Side, number};
 use super::{Canvas, Desk};
 use crate::action::Action;
 
@@ -49,7 +50,8 @@ impl Field {
             Field::Number { value, .. } => number(*value),
             Field::Color(color) => color.map(number).join(", "),
             Field::Switch(on) => on.to_string(),
-            Field::Vector { text, .. } | Field::Note(text) => text.clone(),
+            Field::Vector(parts) => parts.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", "),
+            Field::Note(text) => text.clone(),
         }
     }
 }
@@ -64,8 +66,10 @@ impl Canvas {
                 let text = value.to_string();
                 self.editing = Some(Editing::Numbers { socket, before: text.clone(), text, count: 1, is_new: true });
             }
-            Field::Vector { text, count } => {
-                let (text, before, count) = (text.clone(), text.clone(), *count);
+            Field::Vector(parts) => {
+                // In full: what is not changed stays as it is.
+                let text = parts.iter().map(f32::to_string).collect::<Vec<_>>().join(", ");
+                let (before, count) = (text.clone(), parts.len());
                 self.editing = Some(Editing::Numbers { socket, text, before, count, is_new: true });
             }
             Field::Color(color) => {
@@ -152,6 +156,38 @@ impl Canvas {
 fn place(sheet: &Sheet, socket: &SocketRef) -> Option<Rect> {
     let (card, row) = sheet.find(socket, Side::Input)?;
     sheet.cards[card].field(&sheet.cards[card].rows[row])
+}
+
+/// A drag over the number of a row.
+pub(super) fn number_from(card: &Card, row: usize) -> Gesture {
+    let row = &card.rows[row];
+    let Field::Number { value, range, is_whole, .. } = &row.field else { return Gesture::Idle };
+    let span = range.map(|[low, high]| f64::from(high) - f64::from(low)).filter(|span| span.is_finite() && *span > 0.0);
+    // A value that lies outside already may come back, and goes no farther.
+    let value = f64::from(*value);
+    let range = match (span, range) {
+        (Some(_), Some([low, high])) => [f64::from(*low).min(value), f64::from(*high).max(value)],
+        _ => [f64::from(f32::MIN), f64::from(f32::MAX)],
+    };
+    let per_point = match span {
+        _ if *is_whole => 0.1,
+        Some(span) => span / 200.0,
+        None => (value.abs() * 0.01).max(0.01),
+    };
+    Gesture::Number {
+        socket: SocketRef::new(&card.id, &row.name),
+        value,
+        per_point,
+        is_whole: *is_whole,
+        range,
+        is_changed: false,
+    }
+}
+
+/// A value to the digits that a drag can choose.
+pub(super) fn rounded(value: f64, step: f64) -> f64 {
+    let unit = 10f64.powf(step.abs().max(1e-9).log10().floor());
+    (value / unit).round() * unit
 }
 
 /// A field to write in; whether it stays open, and whether what stands there is meant.

@@ -16,16 +16,16 @@ use super::fit::{self, Loose, candidates, refusal};
 use super::guides::{self, Snapped};
 use super::hit::{self, Hit};
 use super::notes::{self, NoteId, Part};
-use super::sheet::{Card, Field, REROUTE_SIZE, Sheet, Side};
+use super::picked::Chosen;
+use super::sheet::{Field, REROUTE_SIZE, Sheet, Side};
 use super::view::to_grid;
-use super::{Canvas, Desk, edits, moved};
+use super::{Canvas, Desk, edits, fields};
 use crate::action::Action;
 
 /// How near to a socket a wire may be dropped, in screen points.
 const DROP_REACH: f32 = 22.0;
 
 /// What the pointer is doing.
-#[expect(clippy::large_enum_variant, reason = "there is one for each window")]
 #[derive(Debug, Default)]
 pub(super) enum Gesture {
     #[default]
@@ -35,11 +35,14 @@ pub(super) enum Gesture {
     Box {
         /// Canvas point where it began.
         from: Pos2,
-        /// What was selected before and stays so.
-        kept: BTreeSet<NodeId>,
+        /// What was chosen before and stays so.
+        kept: Chosen,
     },
     Move {
-        ids: BTreeSet<NodeId>,
+        /// With what lies in the frames among it.
+        held: Chosen,
+        /// What undo calls it.
+        name: String,
         /// Canvas point where it began.
         from: Pos2,
         snapped: Snapped,
@@ -53,20 +56,20 @@ pub(super) enum Gesture {
         /// What the last socket under the pointer says to the link.
         asked: Option<(Link, Option<String>)>,
     },
-    /// A frame or comment is moved, with the nodes that lie in it, or changes its size.
-    Note {
+    /// A frame or comment changes its size.
+    Resize {
         note: NoteId,
-        part: Part,
         /// Canvas point where it began.
         from: Pos2,
         way: Vec2,
-        ids: BTreeSet<NodeId>,
     },
     Number {
         socket: SocketRef,
         value: f64,
         per_point: f64,
         is_whole: bool,
+        /// It stays within.
+        range: [f64; 2],
         is_changed: bool,
     },
 }
@@ -148,8 +151,7 @@ impl Canvas {
     /// Gives up what is half done.
     pub(super) fn cancel(&mut self, desk: &mut Desk<'_>) {
         if let Gesture::Number { is_changed: true, .. } = self.gesture {
-            desk.actions.push(Action::EndMerge);
-            desk.actions.push(Action::Undo);
+            desk.actions.push(Action::TakeBack);
         }
         self.gesture = Gesture::Idle;
     }
@@ -159,31 +161,38 @@ impl Canvas {
         match hit::hit(sheet, desk.lens, origin) {
             Hit::Socket(card, row) => wire_from(sheet, card, row),
             Hit::Field(card, row) if matches!(sheet.cards[card].rows[row].field, Field::Number { .. }) => {
-                number_from(&sheet.cards[card], row)
+                fields::number_from(&sheet.cards[card], row)
             }
             Hit::Card(card) | Hit::Field(card, _) | Hit::Fold(card) | Hit::Toggle(card) => {
                 let id = &sheet.cards[card].id;
-                let mut ids = desk.session.selection().clone();
-                if !ids.contains(id) {
+                let mut held = self.chosen(desk);
+                if !held.nodes.contains(id) {
                     if !modifiers.shift && !modifiers.command {
-                        ids.clear();
+                        held = Chosen::default();
                     }
-                    ids.insert(id.clone());
-                    desk.actions.push(Action::Select(ids.iter().cloned().collect()));
+                    held.nodes.insert(id.clone());
+                    self.choose_only(desk, held.clone());
                 }
-                Gesture::Move { ids, from, snapped: Snapped::default(), into: None }
+                moving(held, sheet, from)
             }
             Hit::Note(note, part) => {
-                let note = &sheet.notes[note];
-                self.picked = Some(note.id.clone());
-                let held = sheet.cards.iter().filter(|card| part == Part::Title && note.holds(card));
-                let ids = held.map(|card| card.id.clone()).collect();
-                Gesture::Note { note: note.id.clone(), part, from, way: Vec2::ZERO, ids }
+                let id = &sheet.notes[note].id;
+                let mut held = self.chosen(desk);
+                if !held.notes.contains(id) {
+                    if !modifiers.shift && !modifiers.command {
+                        held = Chosen::default();
+                    }
+                    held.notes.insert(id.clone());
+                    self.choose_only(desk, held.clone());
+                }
+                match part {
+                    Part::Title => moving(held, sheet, from),
+                    Part::Corner => Gesture::Resize { note: id.clone(), from, way: Vec2::ZERO },
+                }
             }
             Hit::Empty | Hit::Wire(_) => {
                 let keeps = modifiers.shift || modifiers.command;
-                let kept = if keeps { desk.session.selection().clone() } else { BTreeSet::new() };
-                Gesture::Box { from, kept }
+                Gesture::Box { from, kept: if keeps { self.chosen(desk) } else { Chosen::default() } }
             }
         }
     }
@@ -198,38 +207,38 @@ impl Canvas {
             }
             Gesture::Box { from, kept } => {
                 let rect = Rect::from_two_pos(*from, desk.lens.to_canvas(at));
-                let mut ids = kept.clone();
-                ids.extend(sheet.cards.iter().filter(|card| card.rect().intersects(rect)).map(|card| card.id.clone()));
-                if ids != *desk.session.selection() {
-                    desk.actions.push(Action::Select(ids.into_iter().collect()));
-                }
+                let mut chosen = kept.clone();
+                let cards = sheet.cards.iter().filter(|card| card.rect().intersects(rect));
+                chosen.nodes.extend(cards.map(|card| card.id.clone()));
+                let notes = sheet.notes.iter().filter(|note| note.is_in_box(rect));
+                chosen.notes.extend(notes.map(|note| note.id.clone()));
+                self.choose_only(desk, chosen);
             }
-            Gesture::Move { ids, from, snapped, into } => {
+            Gesture::Move { held, from, snapped, into, .. } => {
                 let way = desk.lens.to_canvas(at) - *from;
                 *snapped = if self.keeps_off_grid != modifiers.command {
                     Snapped { way, lines: Vec::new() }
                 } else {
-                    snap(sheet, ids, way, desk.lens)
+                    snap(sheet, held, way, desk.lens)
                 };
-                *into = wire_for(sheet, ids, desk, at);
+                *into = wire_for(sheet, held, desk, at);
                 ui.set_cursor_icon(egui::CursorIcon::Move);
             }
-            Gesture::Note { note, part, from, way, .. } => {
+            Gesture::Resize { note, from, way } => {
                 *way = desk.lens.to_canvas(at) - *from;
                 if self.keeps_off_grid == modifiers.command
                     && let Some(rect) = sheet.notes.iter().find(|other| other.id == *note).map(|note| note.rect)
                 {
-                    let corner = if *part == Part::Title { rect.min } else { rect.max };
-                    *way = to_grid(corner + *way) - corner;
+                    *way = to_grid(rect.max + *way) - rect.max;
                 }
-                let icon = if *part == Part::Title { egui::CursorIcon::Move } else { egui::CursorIcon::ResizeNwSe };
-                ui.set_cursor_icon(icon);
+                ui.set_cursor_icon(egui::CursorIcon::ResizeNwSe);
             }
             Gesture::Wire { .. } => ui.set_cursor_icon(egui::CursorIcon::Crosshair),
-            Gesture::Number { socket, value, per_point, is_whole, is_changed } => {
+            Gesture::Number { socket, value, per_point, is_whole, range, is_changed } => {
                 let fine = if modifiers.shift { 0.1 } else { 1.0 };
-                *value += f64::from(response.drag_delta().x) * *per_point * fine;
-                let shown = if *is_whole { value.round() } else { rounded(*value, *per_point * fine) };
+                *value = (*value + f64::from(response.drag_delta().x) * *per_point * fine).clamp(range[0], range[1]);
+                let shown = if *is_whole { value.round() } else { fields::rounded(*value, *per_point * fine) };
+                let shown = shown.clamp(range[0], range[1]);
                 let value = Some(Value::Number(shown as f32));
                 if desk.graph.value(socket) != value.as_ref() {
                     *is_changed = true;
@@ -245,13 +254,13 @@ impl Canvas {
         self.shift(sheet);
         match std::mem::take(&mut self.gesture) {
             Gesture::Idle | Gesture::Pan | Gesture::Box { .. } => {}
-            Gesture::Move { ids, into, .. } => {
-                let dragged = sheet.cards.iter().filter(|card| ids.contains(&card.id) && card.shift != Vec2::ZERO);
-                let all: Vec<Edit> = dragged.map(|card| moved(card, card.rect().min)).collect();
-                let name = if all.len() == 1 { "Move node".to_owned() } else { format!("Move {} nodes", all.len()) };
+            Gesture::Move { held, name, snapped, into, .. } => {
+                let way = snapped.way;
+                let all = if way == Vec2::ZERO { Vec::new() } else { held.moved(desk, sheet, way) };
                 let (document, group) = (desk.session.document(), desk.session.group());
                 let insert = |link: &Link| {
-                    ids.first().and_then(|node| insert_on_link(document, Library::standard(), group, link, node).ok())
+                    let node = held.nodes.first()?;
+                    insert_on_link(document, Library::standard(), group, link, node).ok()
                 };
                 match into.and_then(|i| insert(&sheet.wires[i].link)) {
                     Some(edit) => desk.make_with(sheet, "Insert node into wire", all, edit),
@@ -259,16 +268,14 @@ impl Canvas {
                     None => desk.edit(sheet, name, all),
                 }
             }
-            Gesture::Note { note, part, way, .. } if way != Vec2::ZERO => {
-                let held = sheet.cards.iter().filter(|card| card.shift != Vec2::ZERO);
-                let mut all: Vec<Edit> = held.map(|card| moved(card, card.rect().min)).collect();
-                if let Some(note) = sheet.notes.iter().find(|other| other.id == note) {
-                    all.extend(note.placed(desk.graph, notes::changed(note.rect, part, way)));
-                    let verb = if part == Part::Title { "Move" } else { "Resize" };
-                    desk.edit(sheet, format!("{verb} {}", note.kind()), all);
+            Gesture::Resize { note, way, .. } => {
+                let note = sheet.notes.iter().find(|other| other.id == note).filter(|_| way != Vec2::ZERO);
+                if let Some((note, edit)) =
+                    note.and_then(|note| Some((note, note.placed(desk.graph, notes::resized(note.rect, way))?)))
+                {
+                    desk.edit(sheet, format!("Resize {}", note.kind()), vec![edit]);
                 }
             }
-            Gesture::Note { .. } => {}
             Gesture::Wire { loose, taken, .. } => self.drop_wire(ui, desk, sheet, at, loose, taken),
             Gesture::Number { .. } => desk.actions.push(Action::EndMerge),
         }
@@ -332,9 +339,8 @@ impl Canvas {
         }
     }
 
-    /// Puts a reroute into a wire.
+    /// Puts a reroute into a wire, where the pointer is: on the grid it might lie on a card.
     pub(super) fn bend(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, link: &Link, at: Pos2) {
-        let at = to_grid(at);
         let mut arrival = edits::add(desk.session, REROUTE, (at - REROUTE_SIZE / 2.0).into());
         if edits::put_into(desk.session, &mut arrival, link) {
             desk.arrive(sheet, "Add reroute", arrival);
@@ -349,44 +355,56 @@ impl Canvas {
             Hit::Field(card, row) => self.edit_field(desk, sheet, card, row),
             _ => {}
         }
-        self.picked = match hit {
-            Hit::Note(note, _) => Some(sheet.notes[note].id.clone()),
-            _ => None,
-        };
-        let Some(card) = hit.card() else {
-            if !modifiers.shift && !modifiers.command && !desk.session.selection().is_empty() {
-                desk.actions.push(Action::Select(Vec::new()));
+        let mut chosen = self.chosen(desk);
+        let adds = modifiers.shift || modifiers.command;
+        match (hit.card(), hit) {
+            (Some(card), _) => {
+                let id = sheet.cards[card].id.clone();
+                if !adds {
+                    chosen = Chosen::default();
+                }
+                if !(adds && chosen.nodes.remove(&id)) {
+                    chosen.nodes.insert(id);
+                }
             }
-            return;
-        };
-        let id = sheet.cards[card].id.clone();
-        let mut ids = desk.session.selection().clone();
-        if modifiers.shift || modifiers.command {
-            if !ids.remove(&id) {
-                ids.insert(id);
+            (None, Hit::Note(note, _)) => {
+                let id = sheet.notes[note].id.clone();
+                if !adds {
+                    chosen = Chosen::default();
+                }
+                if !(adds && chosen.notes.remove(&id)) {
+                    chosen.notes.insert(id);
+                }
             }
-        } else {
-            ids = BTreeSet::from([id]);
+            _ if adds => {}
+            _ => chosen = Chosen::default(),
         }
-        if ids != *desk.session.selection() {
-            desk.actions.push(Action::Select(ids.into_iter().collect()));
-        }
+        self.choose_only(desk, chosen);
     }
 
     /// Shows dragged cards where they are dragged to.
     fn shift(&self, sheet: &mut Sheet) {
-        let (ids, way) = match &self.gesture {
-            Gesture::Move { ids, snapped, .. } => (ids, snapped.way),
-            Gesture::Note { ids, way, note, part, .. } => {
-                if let Some(note) = sheet.notes.iter_mut().find(|other| other.id == *note) {
-                    note.shown = notes::changed(note.rect, *part, *way);
-                }
-                (ids, *way)
+        match &self.gesture {
+            Gesture::Move { held, snapped, .. } => {
+                let cards = sheet.cards.iter_mut().filter(|card| held.nodes.contains(&card.id));
+                cards.for_each(|card| card.shift = snapped.way);
+                let notes = sheet.notes.iter_mut().filter(|note| held.notes.contains(&note.id));
+                notes.for_each(|note| note.shown = note.rect.translate(snapped.way));
             }
-            _ => return,
-        };
-        sheet.cards.iter_mut().filter(|card| ids.contains(&card.id)).for_each(|card| card.shift = way);
+            Gesture::Resize { note, way, .. } => {
+                if let Some(note) = sheet.notes.iter_mut().find(|other| other.id == *note) {
+                    note.shown = notes::resized(note.rect, *way);
+                }
+            }
+            _ => {}
+        }
     }
+}
+
+/// What is chosen on its way.
+fn moving(chosen: Chosen, sheet: &Sheet, from: Pos2) -> Gesture {
+    let name = format!("Move {}", chosen.words());
+    Gesture::Move { held: chosen.with_contents(sheet), name, from, snapped: Snapped::default(), into: None }
 }
 
 /// Puts an id into a set, or takes it out.
@@ -409,47 +427,26 @@ fn wire_from(sheet: &Sheet, card: usize, row: usize) -> Gesture {
     Gesture::Wire { loose, taken, asked: None }
 }
 
-fn number_from(card: &Card, row: usize) -> Gesture {
-    let row = &card.rows[row];
-    let Field::Number { value, range, is_whole, .. } = &row.field else { return Gesture::Idle };
-    let span = range.map(|[low, high]| f64::from(high) - f64::from(low)).filter(|span| span.is_finite() && *span > 0.0);
-    let per_point = match span {
-        _ if *is_whole => 0.1,
-        Some(span) => span / 200.0,
-        None => (f64::from(value.abs()) * 0.01).max(0.01),
-    };
-    Gesture::Number {
-        socket: SocketRef::new(&card.id, &row.name),
-        value: f64::from(*value),
-        per_point,
-        is_whole: *is_whole,
-        is_changed: false,
-    }
-}
-
-/// A value to the digits that a drag can choose.
-fn rounded(value: f64, step: f64) -> f64 {
-    let unit = 10f64.powf(step.abs().max(1e-9).log10().floor());
-    (value / unit).round() * unit
-}
-
-fn snap(sheet: &Sheet, ids: &BTreeSet<NodeId>, way: Vec2, lens: super::Lens) -> Snapped {
+fn snap(sheet: &Sheet, held: &Chosen, way: Vec2, lens: super::Lens) -> Snapped {
     let (mut moving, mut others) = (None::<Rect>, Vec::new());
     let seen = lens.seen();
     for card in &sheet.cards {
         let rect = Rect::from_min_size(card.place, card.size);
-        if ids.contains(&card.id) {
+        if held.nodes.contains(&card.id) {
             moving = Some(moving.map_or(rect, |all| all.union(rect)));
         } else if seen.intersects(rect) {
             others.push(rect);
         }
     }
+    for note in sheet.notes.iter().filter(|note| held.notes.contains(&note.id)) {
+        moving = Some(moving.map_or(note.rect, |all| all.union(note.rect)));
+    }
     moving.map_or_else(Snapped::default, |moving| guides::snap(moving, &others, way, lens.view.zoom))
 }
 
 /// The wire that a single unwired node is dragged on to, when it fits in there.
-fn wire_for(sheet: &Sheet, ids: &BTreeSet<NodeId>, desk: &Desk<'_>, at: Pos2) -> Option<usize> {
-    let id = ids.first().filter(|_| ids.len() == 1)?;
+fn wire_for(sheet: &Sheet, held: &Chosen, desk: &Desk<'_>, at: Pos2) -> Option<usize> {
+    let id = held.nodes.first().filter(|_| held.nodes.len() == 1 && held.notes.is_empty())?;
     let card = sheet.card(id)?;
     if card.rows.iter().any(|row| row.is_wired) {
         return None;

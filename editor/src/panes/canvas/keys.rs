@@ -1,23 +1,18 @@
 //! The keys of the canvas, while it has the focus or the pointer rests over it.
 
-use std::collections::BTreeSet;
-
 use eframe::egui::{self, Event, EventFilter, Key, Modifiers, Pos2, Response, vec2};
 use halfvector_graph::document::{NodeId, SocketRef, group_of};
-use halfvector_graph::edit::Edit;
 use halfvector_graph::library::Library;
-use halfvector_graph::operation::{Refusal, collapse, copy, paste, remove_and_heal, ungroup};
+use halfvector_graph::operation::{collapse, ungroup};
 
 use super::adding::Purpose;
 use super::edits::Arrival;
 use super::fit::{Loose, sentence};
+use super::picked::Chosen;
 use super::sheet::{Sheet, Side};
-use super::view::{GRID, to_grid};
-use super::{Canvas, Desk, moved};
+use super::view::GRID;
+use super::{Canvas, Desk};
 use crate::action::Action;
-
-/// How far duplicates lie from their originals.
-const BESIDE: egui::Vec2 = vec2(GRID * 2.0, GRID * 2.0);
 
 /// What the window's menu can do with the selected nodes; each is a key of the canvas, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,17 +23,20 @@ pub(crate) enum Verb {
     Duplicate,
     Delete,
     DeleteAndHeal,
+    Connect,
+    SelectAll,
 }
 
 impl Verb {
-    /// All, with their names and keys.
-    pub(crate) const ALL: [(Verb, &str, &str); 6] = [
+    /// What is done with what is chosen, with names and keys.
+    pub(crate) const ALL: [(Verb, &str, &str); 7] = [
         (Verb::Cut, "Cut", "Ctrl+X"),
         (Verb::Copy, "Copy", "Ctrl+C"),
         (Verb::Paste, "Paste", "Ctrl+V"),
         (Verb::Duplicate, "Duplicate", "Ctrl+D"),
         (Verb::Delete, "Delete", "Del"),
         (Verb::DeleteAndHeal, "Delete and heal", "Ctrl+Del"),
+        (Verb::Connect, "Connect…", "C"),
     ];
 }
 
@@ -47,15 +45,14 @@ impl Canvas {
     pub(super) fn do_asked(&mut self, ui: &egui::Ui, response: &Response, desk: &mut Desk<'_>, sheet: &Sheet) {
         for verb in std::mem::take(&mut self.asked) {
             match verb {
-                Verb::Cut => {
-                    self.copy(ui, desk);
-                    self.remove(desk, sheet, false);
-                }
-                Verb::Copy => self.copy(ui, desk),
+                Verb::Cut => self.cut(ui, desk, sheet),
+                Verb::Copy => self.copy(ui, desk, sheet),
                 Verb::Paste => ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste),
                 Verb::Duplicate => self.duplicate(desk, sheet),
                 Verb::Delete => self.remove(desk, sheet, false),
                 Verb::DeleteAndHeal => self.remove(desk, sheet, true),
+                Verb::Connect => self.connect(ui, desk, sheet, None),
+                Verb::SelectAll => self.choose_all(desk, sheet),
             }
             // What is pasted comes as an event, which the focus takes.
             response.request_focus();
@@ -64,7 +61,7 @@ impl Canvas {
 
     /// Does what the keys ask for.
     pub(super) fn keys(&mut self, ui: &egui::Ui, response: &Response, desk: &mut Desk<'_>, sheet: &Sheet) {
-        if self.palette.is_open() || self.editing.is_some() {
+        if self.palette.is_open() || self.editing.is_some() || self.connecting.is_some() {
             return;
         }
         let focused = ui.memory(|memory| memory.focused());
@@ -88,10 +85,10 @@ impl Canvas {
         if pressed(none, Key::Escape) {
             if !self.gesture.is_idle() {
                 self.cancel(desk);
-            } else if !desk.session.selection().is_empty() {
-                desk.actions.push(Action::Select(Vec::new()));
-            } else if self.picked.take().is_none() {
+            } else if self.chosen(desk).is_empty() {
                 desk.leave();
+            } else {
+                self.choose_only(desk, Chosen::default());
             }
         }
         // The ones with more modifiers first: the others would take them.
@@ -101,7 +98,7 @@ impl Canvas {
             self.remove(desk, sheet, false);
         } else if pressed(none, Key::Backspace) {
             // With nothing to delete it leads out of the group.
-            if desk.session.selection().is_empty() && self.picked.is_none() {
+            if self.chosen(desk).is_empty() {
                 desk.leave();
             } else {
                 self.remove(desk, sheet, false);
@@ -114,13 +111,13 @@ impl Canvas {
             self.group(ui, desk, sheet, at);
         }
         if pressed(command, Key::J) {
-            self.add_frame(desk, sheet);
+            self.add_frame(desk, sheet, desk.lens.to_canvas(at));
         }
         if pressed(command, Key::D) {
             self.duplicate(desk, sheet);
         }
         if pressed(command, Key::A) {
-            desk.actions.push(Action::Select(sheet.cards.iter().map(|card| card.id.clone()).collect()));
+            self.choose_all(desk, sheet);
         }
         if pressed(command, Key::L) || pressed(none, Key::L) {
             self.arrange(desk, sheet);
@@ -139,10 +136,11 @@ impl Canvas {
         if pressed(none, Key::Num1) {
             desk.lens.view = desk.lens.zoomed(1.0 / desk.lens.view.zoom, at);
         }
-        if pressed(none, Key::F2)
-            && let [only] = desk.session.selection().iter().collect::<Vec<_>>().as_slice()
-        {
-            self.rename(sheet, only);
+        if pressed(none, Key::F2) {
+            self.rename_chosen(desk, sheet);
+        }
+        if pressed(none, Key::C) {
+            self.connect(ui, desk, sheet, None);
         }
         let arrows = [
             (Key::ArrowLeft, -1.0, 0.0),
@@ -152,9 +150,9 @@ impl Canvas {
         ];
         for (key, x, y) in arrows {
             if pressed(shift, key) {
-                nudge(desk, sheet, vec2(x, y) * GRID * 5.0);
+                self.nudge(desk, sheet, vec2(x, y) * GRID * 5.0);
             } else if pressed(none, key) {
-                nudge(desk, sheet, vec2(x, y) * GRID);
+                self.nudge(desk, sheet, vec2(x, y) * GRID);
             }
         }
         if pressed(none, Key::Enter) {
@@ -177,27 +175,11 @@ impl Canvas {
         });
         for event in events {
             match event {
-                Event::Copy => self.copy(ui, desk),
-                Event::Cut => {
-                    self.copy(ui, desk);
-                    self.remove(desk, sheet, false);
-                }
-                Event::Paste(text) => {
-                    let place = to_grid(desk.lens.to_canvas(at));
-                    match pasted(desk, &text, place) {
-                        Ok(arrival) => desk.arrive(sheet, format!("Paste {}", count(arrival.ids.len())), arrival),
-                        Err(why) => self.say(ui, at, sentence(&why.0)),
-                    }
-                }
+                Event::Copy => self.copy(ui, desk, sheet),
+                Event::Cut => self.cut(ui, desk, sheet),
+                Event::Paste(text) => self.paste(ui, desk, sheet, &text, at),
                 _ => {}
             }
-        }
-    }
-
-    /// Puts the selected nodes into the clipboard.
-    pub(super) fn copy(&self, ui: &egui::Ui, desk: &Desk<'_>) {
-        if !desk.session.selection().is_empty() {
-            ui.ctx().copy_text(copied(desk));
         }
     }
 
@@ -225,26 +207,17 @@ impl Canvas {
         }
     }
 
-    pub(super) fn duplicate(&self, desk: &mut Desk<'_>, sheet: &Sheet) {
-        let Some(rect) = Sheet::bounds(sheet.cards.iter().filter(|card| card.is_selected)) else { return };
-        if let Ok(arrival) = pasted(desk, &copied(desk), rect.min + BESIDE) {
-            desk.arrive(sheet, format!("Duplicate {}", count(arrival.ids.len())), arrival);
-        }
-    }
-
-    pub(super) fn remove(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, heals: bool) {
-        let nodes: &BTreeSet<NodeId> = desk.session.selection();
-        if nodes.is_empty() {
-            self.remove_note(desk, sheet);
-        } else {
-            let name = format!("Delete {}{}", count(nodes.len()), if heals { " and heal" } else { "" });
-            let ids: Vec<NodeId> = nodes.iter().cloned().collect();
-            let session = desk.session;
-            let healed = || remove_and_heal(session.document(), Library::standard(), session.group(), &ids).ok();
-            match heals.then(healed).flatten() {
-                Some(edit) => desk.make_with(sheet, name, Vec::new(), edit),
-                None => desk.edit(sheet, name, ids.into_iter().map(|id| Edit::RemoveNode { id }).collect()),
+    /// Begins to rename what is chosen, when it is one node, frame or comment.
+    fn rename_chosen(&mut self, desk: &Desk<'_>, sheet: &Sheet) {
+        let chosen = self.chosen(desk);
+        match (chosen.nodes.first(), chosen.notes.first()) {
+            (Some(node), None) if chosen.nodes.len() == 1 => self.rename(sheet, node),
+            (None, Some(id)) if chosen.notes.len() == 1 => {
+                if let Some(note) = sheet.notes.iter().find(|note| note.id == *id) {
+                    self.write_note(note);
+                }
             }
+            _ => {}
         }
     }
 
@@ -288,27 +261,6 @@ fn reading_order(sheet: &Sheet) -> Vec<usize> {
     let key = |i: usize| (sheet.cards[i].place.x, sheet.cards[i].place.y);
     order.sort_by(|&a, &b| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal));
     order
-}
-
-fn nudge(desk: &mut Desk<'_>, sheet: &Sheet, by: egui::Vec2) {
-    let edits: Vec<_> =
-        sheet.cards.iter().filter(|card| card.is_selected).map(|card| moved(card, card.place + by)).collect();
-    if !edits.is_empty() {
-        desk.edit(sheet, "Move nodes", edits);
-    }
-}
-
-/// The selected nodes as text.
-fn copied(desk: &Desk<'_>) -> String {
-    let ids: Vec<NodeId> = desk.session.selection().iter().cloned().collect();
-    copy(desk.session.document(), desk.session.group(), &ids)
-}
-
-/// The nodes of a text, the upper left one at a place.
-fn pasted(desk: &Desk<'_>, text: &str, at: Pos2) -> Result<Arrival, Refusal> {
-    let session = desk.session;
-    let (edit, ids) = paste(session.document(), Library::standard(), session.group(), text, at.into())?;
-    Ok(Arrival { edits: vec![edit], ids })
 }
 
 fn count(nodes: usize) -> String {

@@ -1,5 +1,7 @@
 //! The menus of the right mouse button.
 
+use std::collections::BTreeSet;
+
 use eframe::egui::{self, PointerButton, Pos2, Response};
 use halfvector_graph::document::{Link, NodeId, function_of, group_of};
 use halfvector_graph::edit::Edit;
@@ -7,6 +9,7 @@ use halfvector_graph::edit::Edit;
 use super::adding::Purpose;
 use super::hit::Hit;
 use super::notes::NoteId;
+use super::picked::Chosen;
 use super::sheet::Sheet;
 use super::{Canvas, Desk};
 use crate::action::Action;
@@ -39,13 +42,17 @@ impl Canvas {
                 (_, Some(card)) => {
                     let card = &sheet.cards[card];
                     if !card.is_selected {
-                        desk.actions.push(Action::Select(vec![card.id.clone()]));
+                        let nodes = BTreeSet::from([card.id.clone()]);
+                        self.choose_only(desk, Chosen { nodes, ..Chosen::default() });
                     }
                     Meant::Node(card.id.clone())
                 }
                 (Hit::Note(note, _), _) => {
-                    self.picked = Some(sheet.notes[note].id.clone());
-                    Meant::Note(sheet.notes[note].id.clone())
+                    let id = sheet.notes[note].id.clone();
+                    if !self.picked.contains(&id) {
+                        self.choose_note(desk, id.clone());
+                    }
+                    Meant::Note(id)
                 }
                 (Hit::Wire(wire), _) => Meant::Wire(sheet.wires[wire].link.clone(), desk.lens.to_canvas(at), at),
                 _ => Meant::Place(desk.lens.to_canvas(at), at),
@@ -74,13 +81,14 @@ impl Canvas {
             menu.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
         }
         if item(menu, "Select all", "Ctrl+A") {
-            desk.actions.push(Action::Select(sheet.cards.iter().map(|card| card.id.clone()).collect()));
+            self.choose_all(desk, sheet);
         }
         if item(menu, "Add comment", "") {
             self.add_comment(desk, sheet, place);
         }
-        if item(menu, "Add frame", "Ctrl+J") {
-            self.add_frame(desk, sheet);
+        let frame = if self.chosen(desk).is_empty() { "Add frame" } else { "Put a frame around the selection" };
+        if item(menu, frame, "Ctrl+J") {
+            self.add_frame(desk, sheet, place);
         }
         menu.separator();
         if item(menu, "Arrange", "L") {
@@ -109,16 +117,18 @@ impl Canvas {
         }
         menu.separator();
         if item(menu, "Copy", "Ctrl+C") {
-            self.copy(ui, desk);
+            self.copy(ui, desk, sheet);
         }
         if item(menu, "Cut", "Ctrl+X") {
-            self.copy(ui, desk);
-            self.remove(desk, sheet, false);
+            self.cut(ui, desk, sheet);
         }
         if item(menu, "Duplicate", "Ctrl+D") {
             self.duplicate(desk, sheet);
         }
         menu.separator();
+        if item(menu, "Connect…", "C") {
+            self.connect(ui, desk, sheet, None);
+        }
         if item(menu, "Disconnect", "") {
             let selected = desk.session.selection();
             let links = desk.graph.links.iter();
@@ -147,7 +157,7 @@ impl Canvas {
             desk.actions.push(Action::EditFunction(function.to_owned()));
         }
         if item(menu, "Put a frame around", "Ctrl+J") {
-            self.add_frame(desk, sheet);
+            self.add_frame(desk, sheet, desk.lens.view.center);
         }
         if item(menu, "Arrange", "L") {
             self.arrange(desk, sheet);

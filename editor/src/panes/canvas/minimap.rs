@@ -1,6 +1,6 @@
 //! The whole graph in a corner, with the part that is seen. A press there moves the view.
 
-use eframe::egui::{self, Id, Rect, Sense, Stroke, StrokeKind, pos2, vec2};
+use eframe::egui::{self, Id, Pos2, Rect, Sense, Stroke, StrokeKind, pos2, vec2};
 
 use super::draw::Brush;
 use super::sheet::Sheet;
@@ -22,20 +22,22 @@ impl Canvas {
         response.contains_pointer() && self.gesture.is_idle()
     }
 
-    pub(super) fn paint_map(&self, brush: &Brush<'_>, sheet: &Sheet) {
+    pub(super) fn paint_map(&self, brush: &Brush<'_>, sheet: &Sheet, pointer: Option<Pos2>) {
         let Some(map) = self.map_lens(brush.lens, sheet) else { return };
         let colors = &brush.colors;
+        // What lies under it is seen through it, but while it is used.
+        let strength = if pointer.is_some_and(|at| map.pane.contains(at)) { 1.0 } else { 0.5 };
         brush.painter.rect(
             map.pane,
             4.0,
-            colors.card.gamma_multiply(0.9),
+            colors.card.gamma_multiply(0.9 * strength),
             Stroke::new(1.0, colors.line),
             StrokeKind::Inside,
         );
         let painter = brush.painter.with_clip_rect(map.pane.shrink(2.0));
         for card in &sheet.cards {
             let color = if card.is_selected { theme::ACCENT } else { theme::category_color(card.category()) };
-            painter.rect_filled(map.rect_to_screen(card.rect()), 1.0, color);
+            painter.rect_filled(map.rect_to_screen(card.rect()), 1.0, color.gamma_multiply(strength));
         }
         let seen = map.rect_to_screen(brush.lens.seen());
         painter.rect_stroke(seen, 1.0, Stroke::new(1.0, colors.weak), StrokeKind::Inside);

@@ -1,12 +1,15 @@
 //! Frames and comments: what stands behind and beside the nodes. A frame takes along what lies in it.
 
+use std::collections::BTreeSet;
+
 use eframe::egui::{self, Align2, Color32, FontId, Id, Key, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, pos2, vec2};
 use halfvector_graph::document::{self, Comment, Frame, Graph, free_name};
 use halfvector_graph::edit::Edit;
 
 use super::draw::{Brush, Detail};
+use super::picked::Chosen;
 use super::sheet::{Card, Sheet};
-use super::view::Lens;
+use super::view::{Lens, to_grid};
 use super::{Canvas, Desk};
 use crate::theme;
 
@@ -16,6 +19,8 @@ pub(super) const TITLE: f32 = 26.0;
 const CORNER: f32 = 14.0;
 /// Free space between a frame and what it is put around.
 const AROUND: f32 = 20.0;
+/// Size of a frame that is put around nothing.
+const EMPTY: Vec2 = vec2(280.0, 180.0);
 /// Smallest width and height.
 const SMALLEST: Vec2 = vec2(80.0, 48.0);
 
@@ -31,7 +36,7 @@ pub(super) struct Note {
 }
 
 /// Which frame or comment.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum NoteId {
     Frame(String),
     Comment(String),
@@ -89,7 +94,20 @@ impl Note {
 
     /// Whether a card lies in it.
     pub(super) fn holds(&self, card: &Card) -> bool {
-        matches!(self.id, NoteId::Frame(_)) && self.rect.contains_rect(card.rect())
+        matches!(self.id, NoteId::Frame(_)) && self.rect.contains_rect(Rect::from_min_size(card.place, card.size))
+    }
+
+    /// Whether another note lies in it.
+    pub(super) fn holds_note(&self, other: &Note) -> bool {
+        matches!(self.id, NoteId::Frame(_)) && self.id != other.id && self.rect.contains_rect(other.rect)
+    }
+
+    /// Whether a box that selects takes it: a frame when it lies in it as a whole, as boxes are drawn within frames, too.
+    pub(super) fn is_in_box(&self, rect: Rect) -> bool {
+        match self.id {
+            NoteId::Frame(_) => rect.contains_rect(self.rect),
+            NoteId::Comment(_) => rect.intersects(self.rect),
+        }
     }
 
     /// The edit that puts it into another rectangle.
@@ -129,7 +147,8 @@ impl Note {
         }
     }
 
-    fn removed(&self) -> Edit {
+    /// The edit that takes it away.
+    pub(super) fn removed(&self) -> Edit {
         match &self.id {
             NoteId::Frame(id) => Edit::RemoveFrame { id: id.clone() },
             NoteId::Comment(id) => Edit::RemoveComment { id: id.clone() },
@@ -138,7 +157,13 @@ impl Note {
 
     /// What it is called.
     pub(super) fn kind(&self) -> &'static str {
-        match self.id {
+        self.id.kind()
+    }
+}
+
+impl NoteId {
+    pub(super) fn kind(&self) -> &'static str {
+        match self {
             NoteId::Frame(_) => "frame",
             NoteId::Comment(_) => "comment",
         }
@@ -146,14 +171,17 @@ impl Note {
 }
 
 /// A frame around some cards.
-pub(super) fn frame_around(graph: &Graph, cards: Rect) -> Edit {
-    let rect = Rect::from_min_max(cards.min - vec2(AROUND, AROUND + TITLE), cards.max + Vec2::splat(AROUND));
+fn frame_around(graph: &Graph, cards: Rect) -> Edit {
+    frame_of(graph, Rect::from_min_max(cards.min - vec2(AROUND, AROUND + TITLE), cards.max + Vec2::splat(AROUND)))
+}
+
+fn frame_of(graph: &Graph, rect: Rect) -> Edit {
     let id = free_name("frame", |id| graph.frames.contains_key(id));
     Edit::AddFrame { id, frame: Frame { title: "Frame".into(), rect: document_rect(rect), ..Frame::default() } }
 }
 
 /// A comment at a place.
-pub(super) fn comment_at(graph: &Graph, at: Pos2) -> Edit {
+fn comment_at(graph: &Graph, at: Pos2) -> Edit {
     let id = free_name("comment", |id| graph.comments.contains_key(id));
     let rect = document_rect(Rect::from_min_size(at, vec2(180.0, 72.0)));
     Edit::AddComment { id, comment: Comment { text: "Comment".into(), rect, ..Comment::default() } }
@@ -161,11 +189,11 @@ pub(super) fn comment_at(graph: &Graph, at: Pos2) -> Edit {
 
 impl Brush<'_> {
     /// Frames and comments, behind wires and cards.
-    pub(super) fn notes(&self, sheet: &Sheet, picked: Option<&NoteId>) {
+    pub(super) fn notes(&self, sheet: &Sheet, picked: &BTreeSet<NoteId>) {
         let seen = self.lens.seen();
         for note in sheet.notes.iter().filter(|note| note.shown.intersects(seen)) {
             let rect = self.lens.rect_to_screen(note.shown);
-            let is_picked = picked == Some(&note.id);
+            let is_picked = picked.contains(&note.id);
             let [r, g, b] = note.color.unwrap_or(theme::FRAME);
             let color = Color32::from_rgb(r, g, b);
             let radius = (6.0 * self.lens.view.zoom).round();
@@ -240,13 +268,14 @@ pub(super) fn note_at(sheet: &Sheet, lens: Lens, point: Pos2) -> Option<(usize, 
 }
 
 impl Canvas {
-    /// Puts a frame around the selected cards, or an empty one in the middle of the view.
-    pub(super) fn add_frame(&mut self, desk: &mut Desk<'_>, sheet: &Sheet) {
-        let selected = Sheet::bounds(sheet.cards.iter().filter(|card| card.is_selected));
-        let rect = selected.unwrap_or_else(|| Rect::from_center_size(desk.lens.view.center, vec2(240.0, 140.0)));
-        let edit = frame_around(desk.graph, rect);
+    /// Puts a frame around what is chosen, or an empty one at a place of the canvas. From then on the frame is chosen.
+    pub(super) fn add_frame(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
+        let edit = match self.chosen(desk).bounds(sheet) {
+            Some(rect) => frame_around(desk.graph, rect),
+            None => frame_of(desk.graph, Rect::from_min_size(to_grid(at), EMPTY)),
+        };
         if let Edit::AddFrame { id, .. } = &edit {
-            self.picked = Some(NoteId::Frame(id.clone()));
+            self.choose_note(desk, NoteId::Frame(id.clone()));
         }
         desk.edit(sheet, "Add frame", vec![edit]);
     }
@@ -255,17 +284,14 @@ impl Canvas {
     pub(super) fn add_comment(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
         let edit = comment_at(desk.graph, at);
         if let Edit::AddComment { id, .. } = &edit {
-            self.picked = Some(NoteId::Comment(id.clone()));
+            self.choose_note(desk, NoteId::Comment(id.clone()));
         }
         desk.edit(sheet, "Add comment", vec![edit]);
     }
 
-    /// Removes the chosen note.
-    pub(super) fn remove_note(&mut self, desk: &mut Desk<'_>, sheet: &Sheet) {
-        let picked = self.picked.take();
-        if let Some(note) = sheet.notes.iter().find(|note| Some(&note.id) == picked.as_ref()) {
-            desk.edit(sheet, format!("Delete {}", note.kind()), vec![note.removed()]);
-        }
+    /// Chooses a note and nothing else.
+    pub(super) fn choose_note(&mut self, desk: &mut Desk<'_>, id: NoteId) {
+        self.choose_only(desk, Chosen { notes: BTreeSet::from([id]), ..Chosen::default() });
     }
 
     pub(super) fn note_menu(&mut self, menu: &mut egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, id: &NoteId) {
@@ -295,9 +321,18 @@ impl Canvas {
             }
         }
         menu.separator();
+        if super::menus::item(menu, "Copy", "Ctrl+C") {
+            self.copy(menu, desk, sheet);
+        }
+        if super::menus::item(menu, "Cut", "Ctrl+X") {
+            self.cut(menu, desk, sheet);
+        }
+        if super::menus::item(menu, "Duplicate", "Ctrl+D") {
+            self.duplicate(desk, sheet);
+        }
+        menu.separator();
         if super::menus::item(menu, "Delete", "Del") {
-            self.picked = Some(id.clone());
-            self.remove_note(desk, sheet);
+            self.remove(desk, sheet, false);
         }
     }
 
@@ -323,13 +358,8 @@ pub(super) fn write_lines(ui: &mut egui::Ui, rect: Rect, text: &mut String, is_n
     (!is_done, is_done)
 }
 
-/// The rectangle of a note that is being changed by the pointer.
-pub(super) fn changed(rect: Rect, part: Part, way: Vec2) -> Rect {
-    match part {
-        Part::Title => rect.translate(way),
-        Part::Corner => {
-            let max = (rect.max + way).max(rect.min + SMALLEST);
-            Rect::from_min_max(rect.min, pos2(max.x, max.y))
-        }
-    }
+/// The rectangle of a note whose corner is dragged.
+pub(super) fn resized(rect: Rect, way: Vec2) -> Rect {
+    let max = (rect.max + way).max(rect.min + SMALLEST);
+    Rect::from_min_max(rect.min, pos2(max.x, max.y))
 }

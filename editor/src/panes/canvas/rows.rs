@@ -7,7 +7,7 @@ use halfvector_graph::node_def::{Default as InputDefault, Input, NodeDef, REROUT
 use halfvector_graph::resolve::NodeTypes;
 use halfvector_graph::value::{SocketType, Type, Value};
 
-use super::sheet::{Field, HEADER, REROUTE_SIZE, ROW, Row, Side, number, shown};
+use super::sheet::{Field, HEADER, REROUTE_SIZE, ROW, Row, Side, shown};
 
 /// Inputs that a card shows at once; of more only those that are used, and the first of them.
 const INPUTS_SHOWN: usize = 14;
@@ -145,8 +145,6 @@ fn field(input: &Input, ty: SocketType, is_color: bool, set: Option<&Value>) -> 
             Field::Number { value: *x, range: input.range, is_whole: ty == Type::I32, unit: input.unit.clone() }
         }
         (Type::Vec3, [r, g, b]) if is_color => Field::Color([*r, *g, *b]),
-        (_, parts) => {
-            Field::Vector { text: parts.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", "), count: parts.len() }
-        }
+        (_, parts) => Field::Vector(parts.to_vec()),
     }
 }

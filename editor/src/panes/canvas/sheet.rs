@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use eframe::egui::{self, FontId, Pos2, Rect, Vec2, pos2, vec2};
 use halfvector_graph::check::{Problem, Severity, node_label};
-use halfvector_graph::document::{Document, Graph, Link, NodeId, SocketRef};
+use halfvector_graph::document::{Document, Graph, Link, NodeId, SocketRef, group_of};
 use halfvector_graph::node_def::REROUTE;
 use halfvector_graph::resolve::resolve_types;
 use halfvector_graph::value::{SocketType, Type};
@@ -111,11 +111,8 @@ pub(super) enum Field {
     },
     Color([f32; 3]),
     Switch(bool),
-    /// Several numbers, as they are written.
-    Vector {
-        text: String,
-        count: usize,
-    },
+    /// Several numbers.
+    Vector(Vec<f32>),
     /// A note that cannot be changed here: a context, a picture.
     Note(String),
 }
@@ -177,6 +174,12 @@ impl Sheet {
             if let Some(card) = problem.node.as_ref().and_then(|id| index.get(id)).map(|&i| &mut cards[i]) {
                 let socket = problem.socket.as_ref().map_or_else(String::new, |socket| format!("{socket}: "));
                 card.problems.push((problem.severity, format!("{socket}{}", problem.message)));
+                card.problems.sort_by_key(|(severity, _)| *severity);
+            }
+        }
+        for card in &mut cards {
+            if let Some(group) = group_of(&card.definition) {
+                card.problems.extend(problems_inside(session, group));
                 card.problems.sort_by_key(|(severity, _)| *severity);
             }
         }
@@ -328,7 +331,7 @@ impl Field {
             Field::Number { .. } => 64.0,
             Field::Color(_) => 40.0,
             Field::Switch(_) => 17.0,
-            Field::Vector { count, .. } => 24.0 + 24.0 * *count as f32,
+            Field::Vector(parts) => 24.0 + 24.0 * parts.len() as f32,
             Field::Note(text) => (text.chars().count() as f32 * 6.2).min(110.0),
         }
     }
@@ -359,6 +362,28 @@ pub(super) fn number(value: f32) -> String {
     } else {
         text
     }
+}
+
+/// What is wrong inside of a group, and in the groups in it.
+fn problems_inside(session: &Session, group: &str) -> Vec<(Severity, String)> {
+    let groups = &session.document().groups;
+    let mut inside = vec![group];
+    let mut next = 0;
+    while let Some(held) = inside.get(next).and_then(|id| groups.get(*id)) {
+        next += 1;
+        for id in held.graph.nodes.values().filter_map(|node| group_of(&node.node)) {
+            if groups.contains_key(id) && !inside.contains(&id) {
+                inside.push(id);
+            }
+        }
+    }
+    let is_inside = |problem: &&Problem| problem.group.as_deref().is_some_and(|group| inside.contains(&group));
+    let words = |problem: &Problem| {
+        let label = problem.node_label.as_deref().or(problem.node.as_deref());
+        let label = label.map_or_else(String::new, |label| format!("{label}: "));
+        (problem.severity, format!("Inside, {label}{}", problem.message))
+    };
+    session.all_problems().filter(is_inside).map(words).collect()
 }
 
 fn wires(graph: &Graph, cards: &[Card], index: &HashMap<NodeId, usize>) -> Vec<Wire> {

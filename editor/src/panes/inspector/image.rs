@@ -8,7 +8,8 @@ use halfvector_graph::edit::Edit;
 use halfvector_graph::value::{ColorSpace, Filter, ImageRef, Value, Wrap};
 
 use crate::action::{Action, Choose};
-use crate::dropped::{Kind, take};
+use crate::dropped::{is_picture, take};
+use crate::panes::inspector::channel;
 use crate::panes::inspector::input::{self, Slot};
 use crate::panes::inspector::row::{in_words, row};
 use crate::panes::inspector::thumbnail::{Thumbnail, Thumbnails};
@@ -59,13 +60,19 @@ pub(crate) fn show(
             ui.horizontal(|ui| {
                 let path = session.directory().join(&image.file);
                 picture(ui, path, thumbnails);
-                ui.vertical(|ui| reading(ui, &socket, image, actions));
+                ui.vertical(|ui| {
+                    reading(ui, &socket, image, actions);
+                    if let Some(def) = session.node(slot.node).and_then(|node| session.library().get(&node.node)) {
+                        ui.horizontal(|ui| channel::channel(ui, session, slot.node, def, actions));
+                    }
+                    ui.horizontal(|ui| channel::sign(ui, session, slot.node, actions));
+                });
             });
         });
     }
     let place = egui::Rect::from_x_y_ranges(ui.max_rect().x_range(), top..=ui.cursor().top());
     if ui.rect_contains_pointer(place)
-        && let Some(path) = take(ui.ctx(), |kind| kind == Kind::Picture).first()
+        && let Some(path) = take(ui.ctx(), is_picture).first()
     {
         actions.push(pictures::chosen(session, &socket, path));
     }

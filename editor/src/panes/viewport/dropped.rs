@@ -5,7 +5,7 @@ use halfvector_scene::{EnvironmentSource, MeshSource};
 
 use super::Viewport;
 use crate::action::Action;
-use crate::dropped::{Kind, take};
+use crate::dropped::{Kind, is_picture, take};
 use crate::library::LibraryMaterial;
 
 impl Viewport {
@@ -17,7 +17,7 @@ impl Viewport {
         for file in take(ui.ctx(), |kind| kind == Kind::Model) {
             self.set_mesh(MeshSource::File(file));
         }
-        for file in take(ui.ctx(), |kind| kind == Kind::Environment || (kind == Kind::Picture && is_here)) {
+        for file in take(ui.ctx(), |kind| kind == Kind::Environment || (is_picture(kind) && is_here)) {
             self.set_environment(EnvironmentSource::File(file));
         }
         if response.dnd_hover_payload::<LibraryMaterial>().is_some() {
@@ -26,6 +26,12 @@ impl Viewport {
         }
         if let Some(material) = response.dnd_release_payload::<LibraryMaterial>() {
             Viewport::wear(&material, actions);
+        }
+    }
+    /// Takes the environments that no other part has taken for a picture.
+    pub(crate) fn take_left(&mut self, context: &egui::Context) {
+        for file in take(context, |kind| kind == Kind::Radiance) {
+            self.set_environment(EnvironmentSource::File(file));
         }
     }
 }

@@ -63,7 +63,7 @@ impl Viewport {
 
     /// The handles: a disc of the light's colour where it is, or in its direction.
     pub(super) fn lamp_handles(&mut self, ui: &egui::Ui, rect: egui::Rect) {
-        let orbit = self.stage.orbit;
+        let orbit = self.stage.orbit.within(rect.aspect_ratio());
         let screen = |share: [f32; 2]| rect.center() + egui::vec2(share[0], -share[1]) * rect.height();
         for (number, lamp) in self.stage.lamps.iter_mut().enumerate() {
             let Some(place) = orbit.project(lamp.handle(&orbit)).map(screen) else { continue };

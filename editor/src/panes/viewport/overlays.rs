@@ -78,20 +78,21 @@ impl Viewport {
 
 /// What the selected node gives, in the corner of the picture: its outputs one beside the other.
 pub(super) fn selected(ui: &mut egui::Ui, rect: egui::Rect, session: &Session, thumbnails: &mut Thumbnails) {
-    const EDGE: f32 = 72.0;
+    // Small in a small picture, and above the line that says who drew it.
+    let edge = (rect.height() * 0.2).min(72.0);
     let mut nodes = session.selection().iter();
     let (Some(id), None) = (nodes.next(), nodes.next()) else { return };
     let Some(definition) = session.node(id).and_then(|node| session.library().get(&node.node)) else { return };
     let outputs = definition.outputs.iter().filter(|output| output.ty != SocketType::Surface).take(3);
     let mut right = rect.right() - 8.0;
     for output in outputs {
-        let corner = egui::pos2(right - EDGE, rect.bottom() - EDGE - 8.0);
-        let place = egui::Rect::from_min_size(corner, egui::Vec2::splat(EDGE));
-        if place.left() < rect.center().x || rect.height() < 2.0 * EDGE {
+        let corner = egui::pos2(right - edge, rect.bottom() - edge - 26.0);
+        let place = egui::Rect::from_min_size(corner, egui::Vec2::splat(edge));
+        if place.left() < rect.center().x || edge < 32.0 {
             return;
         }
         ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
-            let response = thumbnails.show(ui, session, id, &output.name, EDGE);
+            let response = thumbnails.show(ui, session, id, &output.name, edge);
             response.on_hover_text(format!("{}: {}", output.name, output.help));
         });
         ui.painter().rect_stroke(place, 4.0, egui::Stroke::new(1.0, theme::ACCENT), egui::StrokeKind::Outside);

@@ -233,8 +233,7 @@ pub(super) fn methods_menu(ui: &mut egui::Ui, methods: &mut Methods) {
     ui.separator();
     egui::Grid::new("methods").num_columns(2).spacing([12.0, 4.0]).show(ui, |ui| {
         for term in TERMS {
-            let name = capitalised(&term.name.replace('_', " "));
-            ui.label(name).on_hover_text(term.help);
+            ui.label(term_label(term.name)).on_hover_text(term.help);
             let chosen = methods.get(term.name);
             egui::ComboBox::from_id_salt(term.name)
                 .selected_text(chosen.name)
@@ -259,6 +258,21 @@ pub(super) fn methods_menu(ui: &mut egui::Ui, methods: &mut Methods) {
 pub(super) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
+/// A term as people call it.
+fn term_label(name: &str) -> String {
+    match name {
+        "dfg" => "DFG".to_owned(),
+        "specular_aa" => "Specular anti-aliasing".to_owned(),
+        "env_decode" => "Environment decoding".to_owned(),
+        "encode" => "Encoding".to_owned(),
+        "normal" => "Normal maps".to_owned(),
+        "normal_decode" => "Normal decoding".to_owned(),
+        "d" => "Distribution D".to_owned(),
+        "v" => "Visibility V".to_owned(),
+        name => capitalised(&name.replace('_', " ")),
+    }
 }
 
 fn tone_map_label(map: ToneMap) -> &'static str {

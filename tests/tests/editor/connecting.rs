@@ -1,0 +1,110 @@
+//! Wires by keys alone.
+
+use egui_kittest::kittest::Queryable;
+use halfvector_editor::{Action, Options, egui};
+
+use super::hands::*;
+use super::open;
+
+const NONE: egui::Modifiers = egui::Modifiers::NONE;
+
+/// The graph has the focus, and the pointer is far away.
+fn by_keys() -> Window {
+    let mut window = open(Options::default());
+    window.run_steps(3);
+    window.get_by_label("Graph canvas").focus();
+    window.remove_cursor();
+    window.run_steps(2);
+    window
+}
+
+#[test]
+fn two_nodes_are_connected_by_keys() {
+    let mut window = by_keys();
+    let before = text(&window);
+    // To the first node, and from it to the surface.
+    key(&mut window, NONE, egui::Key::Tab);
+    key(&mut window, NONE, egui::Key::C);
+    write(&mut window, "metallic");
+    key(&mut window, NONE, egui::Key::Enter);
+    assert_eq!(source(&window, "surface", "metallic").as_deref(), Some("chips.out"));
+    assert_eq!(window.state().session().steps()[0], Some("Connect"));
+    assert!(window.get_by_label("Graph canvas").is_focused());
+    // The same wire is taken away again.
+    key(&mut window, NONE, egui::Key::C);
+    write(&mut window, "metallic");
+    key(&mut window, NONE, egui::Key::Enter);
+    assert_eq!(source(&window, "surface", "metallic"), None);
+    // From the other end: an input of the node gets what another one gives.
+    window.state_mut().act(Action::Select(vec!["surface".into()]));
+    window.step();
+    key(&mut window, NONE, egui::Key::C);
+    write(&mut window, "ior: from rust grain");
+    key(&mut window, NONE, egui::Key::Enter);
+    assert_eq!(source(&window, "surface", "ior").as_deref(), Some("grain.out"));
+    undo_all(&mut window);
+    assert_eq!(text(&window), before);
+}
+
+#[test]
+fn what_does_not_fit_is_not_offered_and_escape_changes_nothing() {
+    let mut window = by_keys();
+    let before = text(&window);
+    window.state_mut().act(Action::Select(vec!["base_color".into()]));
+    window.step();
+    key(&mut window, NONE, egui::Key::C);
+    let offered = |window: &Window, text: &str| window.query_all_by_label_contains(text).next().is_some();
+    assert!(offered(&window, "to emission of Surface"));
+    assert!(!offered(&window, "to metallic of Surface"), "a colour is no number");
+    assert!(!offered(&window, "t: from Surface"), "that would be a ring");
+    key(&mut window, NONE, egui::Key::ArrowDown);
+    key(&mut window, NONE, egui::Key::Escape);
+    assert_eq!(text(&window), before);
+    assert!(window.query_by_label("Search connections").is_none());
+    // Of two selected nodes what can be among them.
+    window.state_mut().act(Action::Select(vec!["grain".into(), "surface".into()]));
+    window.step();
+    key(&mut window, NONE, egui::Key::C);
+    assert!(offered(&window, "to metallic of Surface"));
+    assert!(!offered(&window, "of Rust, dark and light"));
+}
+
+#[test]
+fn it_stands_in_the_menu_and_in_the_sheet_of_keys() {
+    let mut window = by_keys();
+    window.get_by_label("Node Rust grain").click();
+    window.run_steps(2);
+    window.get_by_label("Edit").click();
+    window.run_steps(2);
+    window.get_by_label("Connect… C").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Search connections").is_some());
+    key(&mut window, NONE, egui::Key::Escape);
+    key(&mut window, NONE, egui::Key::F1);
+    assert!(window.query_by_label("Connect the selected node with another one, by words").is_some());
+}
+
+#[test]
+fn a_press_on_a_socket_by_a_screen_reader_offers_what_it_can_be_connected_with() {
+    let mut window = by_keys();
+    window.get_by_label("Output out of Rust grain").click_accesskit();
+    window.run_steps(3);
+    write(&mut window, "metallic");
+    key(&mut window, NONE, egui::Key::Enter);
+    assert_eq!(source(&window, "surface", "metallic").as_deref(), Some("grain.out"));
+}
+
+#[test]
+fn a_double_click_bends_a_wire_where_it_was() {
+    let mut window = by_keys();
+    let ends = ["Output out of Enamel over rust", "Input base_color of Surface"].map(|label| center(&window, label));
+    let at = ends[0] + (ends[1] - ends[0]) * 0.5;
+    go(&mut window, at);
+    for pressed in [true, false, true, false] {
+        press(&mut window, at, pressed, NONE);
+    }
+    window.run_steps(3);
+    let dot = window.get_by_label("Node Reroute").rect().center();
+    assert!(dot.distance(at) < 3.0, "{dot:?} instead of {at:?}");
+    assert_eq!(source(&window, "surface", "base_color").as_deref(), Some("reroute.out"));
+}
