@@ -84,7 +84,7 @@ const PICTURES: [&str; 2] = ["plain-dielectric.material.json", "report-3-rough-m
 fn rows_of_today() -> Vec<Row> {
     let whole = |part: &&Part| !["ibl", "peers", "pictures", "shaders"].contains(&part.name);
     let mut rows: Vec<Row> = PARTS.iter().filter(whole).flat_map(|part| part.measured(Effort::Quick)).collect();
-    let run = Run::new(Effort::Quick, &|_, _| ());
+    let run = Run::alone(Effort::Quick);
     rows.extend(ibl::rows_under_sky(&run));
     rows.extend(pictures::rows_of(&PICTURES.map(|name| root().join("examples").join(name)), &run));
     rows

@@ -40,7 +40,8 @@ impl Unit {
         }
     }
 
-    /// The rms error that each budget allows; film asks for the least there is, and counts less than this as nothing.
+    /// The rms error that each budget allows; film asks for the least there is, and counts less than this as nothing. Absolute errors are of
+    /// quantities from 0 to 1, so that a part of them is as large as a part of the most that there can be.
     pub fn limit(self, budget: Budget) -> f64 {
         let [mobile, desktop, film] = match self {
             Unit::Relative | Unit::Plain => [0.1, 0.01, 1e-6],

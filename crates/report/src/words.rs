@@ -65,6 +65,16 @@ pub fn rms(row: &Row, unit: Unit) -> String {
     }
 }
 
+/// The limits of a budget, for each kind of error.
+pub fn limits(budget: Budget) -> String {
+    format!(
+        "{} % of the truth ({} where it is absolute, {}° for angles)",
+        100.0 * Unit::Relative.limit(budget),
+        Unit::Plain.limit(budget),
+        Unit::Degrees.limit(budget)
+    )
+}
+
 /// A cost with its unit: 3.4 ns, 8,100 bytes.
 pub fn cost(x: f64, kind: Cost) -> String {
     match kind {

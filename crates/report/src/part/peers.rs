@@ -217,7 +217,7 @@ impl Levels {
         for ((k, (size, roughness, cube)), expected) in places.into_iter().zip(expected) {
             let dir = texel_centre(*size, k);
             add(&mut errors, cube.sample(dir), expected, truth.mean(), || {
-                format!("roughness {roughness:.3}, {dir:.3?}")
+                format!("roughness = {roughness:.3}, direction = {dir:.3?}")
             });
         }
         errors
