@@ -124,7 +124,24 @@ fn errors_are_those_of_the_baseline_and_of_the_committed_run() {
             assert!(same, "{name}: the {what} error is {now:e}, was {before:e}; HALFVECTOR_BLESS=1 takes it as it is");
         }
     }
+    for row in &rows {
+        let failure = row.first_failure.as_ref().and_then(|text| text.split_once(": ").map(|(at, _)| at.to_owned()));
+        for at in [row.at.clone(), failure].into_iter().flatten() {
+            assert!(are_named(&at), "{}: the input is {at:?}, without names", name(row));
+        }
+    }
     held_against_committed_run(&rows);
+}
+
+/// Whether a text is names and values, `n.v = 0.02, f0 = [0.04, 0.04, 0.04]`, split by commas outside of brackets.
+fn are_named(at: &str) -> bool {
+    let mut depth = 0;
+    let outside = |c: char| {
+        depth += i32::from(c == '[') - i32::from(c == ']');
+        c == ',' && depth == 0
+    };
+    let mut parts = at.split(outside).map(str::trim);
+    parts.all(|part| part.split_once(" = ").is_some_and(|(name, value)| !name.is_empty() && !value.is_empty()))
 }
 
 /// What the published figures say of errors is what the code does, on devices too where it is the same one.

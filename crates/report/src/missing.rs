@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Row;
+use crate::part::ibl::NOT_TIMED;
 use crate::part::shaders;
 
 /// Why some rows of a part and term have no figure of a kind.
@@ -131,6 +132,9 @@ fn no_error(row: &Row, figure: &str) -> &'static str {
 
 fn no_time(row: &Row, figure: &str) -> &'static str {
     let is_batch = figure == "cost_batch_ns";
+    if is_batch && row.note.as_deref() == Some(NOT_TIMED) {
+        return NOT_TIMED;
+    }
     match (row.part.as_str(), row.term.as_str()) {
         ("shaders", _) => "a shader is counted, and timed on the device",
         ("ibl", "prefilter") => "a bake is timed as a whole, and shared out among its texels in cost_batch_ns",

@@ -104,7 +104,7 @@ fn counted(report: &Report) -> String {
     let names: std::collections::HashSet<_> = report.rows.iter().map(|row| (&row.term, &row.method)).collect();
     let recorded = report.rows.iter().filter(|row| row.recorded.is_some()).count();
     let mut text = format!("{} methods in {} cases, measured in this run", names.len(), report.rows.len() - recorded);
-    if report.rows.iter().any(|row| !report.parts.contains(&row.part)) {
+    if report.rows.iter().any(|row| !row.part.is_empty() && !report.parts.contains(&row.part)) {
         text.push_str(" until it was interrupted");
     }
     match recorded {
@@ -129,7 +129,7 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
          5 %. For mobile memory comes first, where it is known of all: of those that take up to half as long again as the cheapest, the one \
          that reads the least.</li>\n<li>Of methods that are alike in all this it is the most <b>accurate</b>, and of equals that which \
          <code>halfvector methods</code> lists first.</li></ul>\n<p>Only what <code>--method</code> knows is recommended; where the library alone \
-         has something better it is named below.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
+         has something better it is named below.</p>\n<section class=\"card\"><div class=\"scroll\"><table class=\"choices\"><thead><tr><th>term</th>\
          <th>mobile</th><th>desktop</th><th>film</th></tr></thead><tbody>\n",
         words::limits(Budget::Mobile),
         words::limits(Budget::Desktop),
@@ -158,7 +158,8 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
             });
             let _ = write!(
                 page,
-                "<td><b>{}</b>{tag}{over}<br><span class=\"muted\">{}</span>{of_library}</td>",
+                "<td data-label=\"{}\"><b>{}</b>{tag}{over}<br><span class=\"muted\">{}</span>{of_library}</td>",
+                budget.name(),
                 escaped(&entry.row.method),
                 escaped(&figures)
             );

@@ -70,4 +70,13 @@ pub enum Budget {
 impl Budget {
     /// All, from the smallest.
     pub const ALL: [Budget; 3] = [Budget::Mobile, Budget::Desktop, Budget::Film];
+
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Budget::Mobile => "mobile",
+            Budget::Desktop => "desktop",
+            Budget::Film => "film",
+        }
+    }
 }

@@ -150,6 +150,8 @@ fn an_interrupt_ends_what_is_measured_again() {
         assert!(begun.elapsed() < Duration::from_secs(300), "nothing is measured again");
         std::thread::sleep(Duration::from_millis(5));
     }
+    // It is about to be started, or was.
+    std::thread::sleep(Duration::from_millis(200));
     interrupt(&running);
     let mut said = String::new();
     running.stderr.take().expect("piped").read_to_string(&mut said).expect("text");

@@ -62,7 +62,7 @@ pub(super) fn add(errors: &mut Errors, value: [f32; 3], truth: [f64; 3], mean: [
 }
 
 /// What stands beside a row that is judged and not timed yet.
-const NOT_TIMED: &str = "it was not timed: the run was interrupted before";
+pub(crate) const NOT_TIMED: &str = "it was not timed: the run was interrupted before";
 
 /// The levels at random texel centres, by filter, quality and size. Cost is the time of a whole bake on all cores, irradiance
 /// and harmonics included, shared out among the texels of its levels. Each bake is judged as soon as it is made once, and kept behind the

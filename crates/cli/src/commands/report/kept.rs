@@ -91,8 +91,8 @@ impl Kept {
             // One that has ended by itself cannot be ended.
             let _ = child.kill();
             let _ = child.wait();
-            let _ = std::fs::remove_dir_all(again_folder());
         }
+        let _ = std::fs::remove_dir_all(again_folder());
     }
 
     /// Writes a part that is measured to its end, and what of it is not.
