@@ -10,15 +10,12 @@ use crate::{Row, terms};
 /// shaders do.
 const STEADY: f64 = 0.1;
 
-/// Times that differ by less, or by less than their spreads, are alike: those of one machine differ by as much from run to run, and what is
-/// chosen must not.
-const ALIKE: f64 = 0.25;
+/// Times that differ by less, or by less than their spreads, are alike. Those of one machine differ by up to a quarter from run to run, and
+/// what is chosen must not.
+const ALIKE: f64 = 0.5;
 
 /// Shaders whose instructions differ by less are as long.
 const AS_LONG: f64 = 0.05;
-
-/// Memory decides on a phone between methods whose times differ by less than this.
-const NEARLY: f64 = 0.5;
 
 /// The time on the device, or, where the rows' times are not steady, the instructions.
 pub(crate) fn steadier(rows: &[&Row]) -> Cost {
@@ -49,8 +46,8 @@ impl<'a> Comparison<'a> {
 
     /// What to recommend: a method that `--method` knows, whose rms error is within the budget's limit, or, where none is, within 5 % of
     /// the least error or of rounding, as for film. Of these those whose cost is about the least: first by the device's time where all have one,
-    /// then by instructions; or else by the plot's costs. On mobile, where it is known of all, memory comes before that, among those
-    /// that take up to half as long again. Of what is left it is the most accurate, and of equals that which the list of methods has first.
+    /// then by instructions; or else by the plot's costs. On mobile, where it is known of all, memory comes between the first cost
+    /// and the next. Of what is left it is the most accurate, and of equals that which the list of methods has first.
     pub fn recommended(&self, budget: Budget) -> Choice<'_, 'a> {
         let known = |entry: &Entry<'_>| terms::is_known(self.term, &entry.row.method);
         let all = self.weighed(|_| true);
@@ -98,7 +95,7 @@ impl<'a> Comparison<'a> {
             let least = all.iter().map(|entry| entry.rms).fold(f64::INFINITY, f64::min);
             taken = within((1.05 * least).max(self.unit.limit(Budget::Film)));
         } else if budget == Budget::Mobile && all.iter().all(|entry| entry.row.bytes.is_some()) {
-            self.retain_cheapest(&mut taken, *costs.first()?, NEARLY);
+            self.retain_cheapest(&mut taken, *costs.first()?, ALIKE);
             let least = taken.iter().filter_map(|entry| entry.row.bytes).min();
             taken.retain(|entry| entry.row.bytes == least);
         }
@@ -220,7 +217,7 @@ mod tests {
         assert_eq!(found(None, None, 0.0), (Cost::Instructions, Cost::Instructions, "bent".to_owned()));
     }
 
-    /// Figures of the committed quick run and of a full one: what noise of times there is changes no choice, and neither does much more of it.
+    /// Figures of the committed quick run and of a full one: what noise of times there is changes no choice, and neither does twice as much.
     #[test]
     fn two_runs_of_one_machine_choose_alike() {
         type Method = (&'static str, f64, u64, [f64; 2], Option<u64>);

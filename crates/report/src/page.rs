@@ -125,7 +125,7 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
          for <b>film</b> it is what is within 5 % of the least error. Where no method errs as little, the one for film stands there, and is \
          marked <span class=\"tag plain\">over the limit</span>.</li>\n<li><b>Cheapest</b> is by the time on the device{}, where every method \
          has one, and then by the instructions of the same shaders; else by the cost of the figure below. Times on one machine change from run \
-         to run: those that differ by less than 25 %, or by less than their spreads, are alike, as are instructions that differ by less than \
+         to run: those that differ by less than 50 %, or by less than their spreads, are alike, as are instructions that differ by less than \
          5 %. For mobile memory comes first, where it is known of all: of those that take up to half as long again as the cheapest, the one \
          that reads the least.</li>\n<li>Of methods that are alike in all this it is the most <b>accurate</b>, and of equals that which \
          <code>halfvector methods</code> lists first.</li></ul>\n<p>Only what <code>--method</code> knows is recommended; where the library alone \

@@ -72,7 +72,7 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
          budget takes the cheapest of the methods that err little enough.\n\n* Little enough is an rms error of at most {} for **mobile** and {} \
          for **desktop**; for **film** it is what is within 5 % of the least error. Where no method errs as little, the one for film stands there, \
          marked *over the limit*.\n* Cheapest is by the time on the device{}, where every method has one, and then by the instructions of the \
-         same shaders; else by the cost in the tables below. Times on one machine change from run to run: those that differ by less than 25 %, \
+         same shaders; else by the cost in the tables below. Times on one machine change from run to run: those that differ by less than 50 %, \
          or by less than their spreads, are alike, as are instructions that differ by less than 5 %. For mobile memory comes first, where it is \
          known of all: of those that take up to half as long again as the cheapest, the one that reads the least.\n* Of methods that are alike \
          in all this it is the most accurate, and of equals that which `halfvector methods` lists first.\n\nOnly what `--method` knows is \
