@@ -36,7 +36,7 @@ impl Unit {
             Unit::Relative => "rms error, relative",
             Unit::Degrees => "rms error [degrees]",
             Unit::Ulps => "rms error [ulp]",
-            Unit::Plain => "rms error",
+            Unit::Plain => "rms error, absolute",
         }
     }
 
