@@ -73,7 +73,9 @@ fn draw(x_title: &str, y_title: &str, curves: &[Curve], root: super::Area<'_>) -
     for (x, y, number) in ends {
         let y = y.max(above + APART);
         above = y;
-        let style = text(15, &COLORS[number % COLORS.len()]).pos(Pos::new(HPos::Left, VPos::Center));
+        // The palest color is for lines: words want more contrast.
+        let color = if number % COLORS.len() == 3 { MUTED } else { COLORS[number % COLORS.len()] };
+        let style = text(15, &color).pos(Pos::new(HPos::Left, VPos::Center));
         root.draw(&Text::new(curves[number].name.clone(), (x + 24, y), style))?;
     }
     root.present()
