@@ -84,7 +84,7 @@ const PICTURES: [&str; 2] = ["plain-dielectric.material.json", "report-3-rough-m
 fn rows_of_today() -> Vec<Row> {
     let whole = |part: &&Part| !["ibl", "peers", "pictures", "shaders"].contains(&part.name);
     let mut rows: Vec<Row> = PARTS.iter().filter(whole).flat_map(|part| part.measured(Effort::Quick)).collect();
-    let run = Run::new(Effort::Quick, &|_, _| ());
+    let run = Run::alone(Effort::Quick);
     rows.extend(ibl::rows_under_sky(&run));
     rows.extend(pictures::rows_of(&PICTURES.map(|name| root().join("examples").join(name)), &run));
     rows
@@ -124,7 +124,24 @@ fn errors_are_those_of_the_baseline_and_of_the_committed_run() {
             assert!(same, "{name}: the {what} error is {now:e}, was {before:e}; HALFVECTOR_BLESS=1 takes it as it is");
         }
     }
+    for row in &rows {
+        let failure = row.first_failure.as_ref().and_then(|text| text.split_once(": ").map(|(at, _)| at.to_owned()));
+        for at in [row.at.clone(), failure].into_iter().flatten() {
+            assert!(are_named(&at), "{}: the input is {at:?}, without names", name(row));
+        }
+    }
     held_against_committed_run(&rows);
+}
+
+/// Whether a text is names and values, `n.v = 0.02, f0 = [0.04, 0.04, 0.04]`, split by commas outside of brackets.
+fn are_named(at: &str) -> bool {
+    let mut depth = 0;
+    let outside = |c: char| {
+        depth += i32::from(c == '[') - i32::from(c == ']');
+        c == ',' && depth == 0
+    };
+    let mut parts = at.split(outside).map(str::trim);
+    parts.all(|part| part.split_once(" = ").is_some_and(|(name, value)| !name.is_empty() && !value.is_empty()))
 }
 
 /// What the published figures say of errors is what the code does, on devices too where it is the same one.

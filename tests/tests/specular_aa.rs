@@ -1,12 +1,12 @@
 //! Specular anti-aliasing, measured: the report's own figures, in full.
 
 use halfvector_report::part::specular_aa::rows;
-use halfvector_report::{Effort, Row};
+use halfvector_report::{Effort, Row, Run};
 
 /// A turn of the normal within the pixel, as roughness, is nearer to the mean over the pixel than the normal at its middle alone.
 #[test]
 fn sharp_highlights_are_nearer_to_the_mean_over_the_pixel() {
-    let rows = rows(Effort::Full);
+    let rows = rows(&Run::alone(Effort::Full));
     assert_eq!(rows.len(), 18, "three methods on six things");
     println!("{:<40} {:>8} {:>8} {:>10}", "rms over mean", "none", "box", "tokuyoshi");
     let mut failed = Vec::new();

@@ -355,6 +355,7 @@ fn a_report_is_compared_with_an_older_one() {
     old["rows"][2] = measured["rows"][2].clone();
     folder.write("old.json", &old.to_string());
     let run = report(&["--compare", "old.json"]).ends(3).says("mips: measured again").says("figures that are worse: 2");
+    assert!(run.stderr.contains("(1 of at most 5 times, about ") && run.stderr.contains(" more)"), "{}", run.stderr);
     assert!(run.stdout.contains("less accurate: normal_mips"), "{}", run.stdout);
     assert!(run.stdout.contains("slower: normal_mips unchanged: one call takes"), "{}", run.stdout);
 }
@@ -382,29 +383,4 @@ fn what_cannot_be_compared_is_told_before_anything_is_measured() {
     folder.write("file", "");
     folder.run(&["report", "--quick", "--only", "mips", "-o", "file"]).ends(1).says("file");
     assert!(!folder.path("out").exists());
-}
-
-/// Killed in the middle of its second part: the first is there, whole.
-#[test]
-fn an_interrupted_report_keeps_what_it_has_measured() {
-    let folder = Folder::new();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_halfvector"))
-        .args(["report", "--quick", "--only", "mips", "--only", "ibl", "-o", "out"])
-        .current_dir(folder.0.path())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("the program starts");
-    let page = folder.path("out/index.html");
-    let begun = std::time::Instant::now();
-    while !page.exists() && begun.elapsed().as_secs() < 300 {
-        std::thread::sleep(std::time::Duration::from_millis(50));
-    }
-    child.kill().expect("it was still measuring");
-    child.wait().expect("it ends");
-    let text = std::fs::read_to_string(folder.path("out/report.json")).expect("a report");
-    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-    assert_eq!(report["parts"], serde_json::json!(["mips"]));
-    assert!(report["rows"].as_array().is_some_and(|rows| !rows.is_empty()), "{text}");
-    assert!(std::fs::read_to_string(page).expect("a page").ends_with("</html>\n"), "the page is whole");
-    assert!(!folder.path("out/ibl.csv").exists(), "the second part was not done");
 }

@@ -1,54 +1,26 @@
 //! What to choose: for each budget the method that costs least within its limit of error.
 
-use crate::comparison::{Comparison, Entry, front};
+use crate::comparison::{Comparison, Entry};
 use crate::cost::Cost;
 use crate::timing::median;
 use crate::unit::Budget;
 use crate::{Row, terms};
 
-/// Times on the device that spread by more than this, in the median of the methods, do not tell methods apart; the instructions of the same
-/// shaders are weighed then.
+/// Times on the device that spread by more than this, in the median of the methods, make no axis of a plot; the instructions of the same
+/// shaders do.
 const STEADY: f64 = 0.1;
 
-/// Memory decides on a phone between methods whose times differ by less than this.
-const NEARLY: f64 = 1.2;
+/// Times that differ by less, or by less than their spreads, are alike. Those of one machine differ by up to a quarter from run to run, and
+/// what is chosen must not.
+const ALIKE: f64 = 0.5;
+
+/// Shaders whose instructions differ by less are as long.
+const AS_LONG: f64 = 0.05;
 
 /// The time on the device, or, where the rows' times are not steady, the instructions.
 pub(crate) fn steadier(rows: &[&Row]) -> Cost {
     let spreads = rows.iter().map(|row| row.gpu_spread.unwrap_or(f64::INFINITY)).collect();
     if median(spreads) <= STEADY { Cost::Device } else { Cost::Instructions }
-}
-
-/// A method, and what it costs.
-type Taken<'c, 'a> = (&'c Entry<'a>, f64);
-
-/// Those that no other of them beats.
-fn unbeaten<'c, 'a>(taken: &[Taken<'c, 'a>], cost: Cost) -> Vec<Taken<'c, 'a>> {
-    let figures: Vec<_> = taken.iter().map(|&(entry, spent)| (entry.rms, spent, cost.spread(entry.row))).collect();
-    taken.iter().zip(front(&figures)).filter(|(_, front)| *front).map(|(taken, _)| *taken).collect()
-}
-
-/// The cheapest of those within a limit of error.
-fn cheapest<'c, 'a>(taken: &[Taken<'c, 'a>], limit: f64) -> Option<&'c Entry<'a>> {
-    let within = taken.iter().filter(|(entry, _)| entry.rms <= limit);
-    within.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(entry, _)| *entry)
-}
-
-/// Of the methods within a limit of error that take about as long as the cheapest, that which reads the least memory: what a phone's
-/// battery pays for. Of methods that read as little it is the cheapest that no other beats. None where a method's memory is not known,
-/// or none keeps the limit.
-fn smallest<'c, 'a>(taken: &[Taken<'c, 'a>], cost: Cost, limit: f64) -> Option<&'c Entry<'a>> {
-    if taken.iter().any(|(entry, _)| entry.row.bytes.is_none()) {
-        return None;
-    }
-    let within = || taken.iter().copied().filter(|(entry, _)| entry.rms <= limit);
-    let fastest = within().map(|(_, spent)| spent).fold(f64::INFINITY, f64::min);
-    let nearly = within().filter(|(_, spent)| *spent <= NEARLY * fastest);
-    let least = nearly.filter_map(|(entry, _)| entry.row.bytes).min()?;
-    // What reads less still takes longer than that, and is weighed, too: nothing is taken that it beats.
-    let small: Vec<Taken<'c, 'a>> =
-        within().filter(|(entry, _)| entry.row.bytes.is_some_and(|bytes| bytes <= least)).collect();
-    cheapest(&unbeaten(&small, cost), limit)
 }
 
 /// What to take within a budget.
@@ -67,59 +39,72 @@ pub struct Choice<'c, 'a> {
 }
 
 impl<'a> Comparison<'a> {
-    /// The method to take within a budget: the cheapest whose rms error is within the budget's limit, or, where none is,
-    /// that for film, which is the cheapest of those that are within 5 % of the least error or of rounding. On mobile it is, of
-    /// those that take up to 1.2 times as long as the cheapest, that which reads the least memory, where it is known of all.
-    /// Costs are those of the plot.
+    /// The method to take within a budget, by the costs of the plot; see [`Comparison::recommended`].
     pub fn choice(&self, budget: Budget) -> &Entry<'a> {
-        self.pick(budget, self.cost, |_| true).unwrap_or(&self.entries[0])
+        self.pick(budget, &[self.cost], |_| true).unwrap_or(&self.entries[0])
     }
 
-    /// What to recommend: the same among the methods that `--method` knows, by the device's time where all of these have
-    /// one that is steady, else by instructions, or by the plot's costs. Of methods whose costs are alike it is the more accurate.
+    /// What to recommend: a method that `--method` knows, whose rms error is within the budget's limit, or, where none is, within 5 % of
+    /// the least error or of rounding, as for film. Of these those whose cost is about the least: first by the device's time where all have one,
+    /// then by instructions; or else by the plot's costs. On mobile, where it is known of all, memory comes between the first cost
+    /// and the next. Of what is left it is the most accurate, and of equals that which the list of methods has first.
     pub fn recommended(&self, budget: Budget) -> Choice<'_, 'a> {
         let known = |entry: &Entry<'_>| terms::is_known(self.term, &entry.row.method);
-        let best = self.pick(budget, self.weighed(|_| true), |_| true).unwrap_or(&self.entries[0]);
-        let (named, weighed) = (self.pick(budget, self.weighed(known), known), self.weighed(known));
+        let all = self.weighed(|_| true);
+        let best = self.pick(budget, &all, |_| true).unwrap_or(&self.entries[0]);
+        let own = self.weighed(known);
+        let named = self.pick(budget, &own, known);
         let entry = named.unwrap_or(best);
         Choice {
             entry,
-            weighed: if named.is_some() { weighed } else { self.weighed(|_| true) },
+            weighed: if named.is_some() { own[0] } else { all[0] },
             keeps: self.keeps(entry, budget),
             library_only: named.is_none(),
             of_library: (named.is_some() && !known(best)).then_some(best),
         }
     }
 
-    /// The cost that is weighed among some of the methods: the device's time where all have one and these are steady, else
-    /// the instructions of the same shaders; where a method has no shader, the plot's.
-    fn weighed(&self, of: impl Fn(&Entry<'a>) -> bool) -> Cost {
-        let rows: Vec<&Row> = self.entries.iter().filter(|entry| of(entry)).map(|entry| entry.row).collect();
-        let all = |cost: Cost| rows.iter().all(|row| cost.of(row).is_some());
-        match (all(Cost::Device), all(Cost::Instructions)) {
-            (true, false) => Cost::Device,
-            (true, true) => steadier(&rows),
-            _ => self.cost,
-        }
+    /// The costs that are weighed among some of the methods, one after the other: the device's time and the instructions of the same
+    /// shaders, where all have them; where a method has no shader, the plot's.
+    fn weighed(&self, of: impl Fn(&Entry<'a>) -> bool) -> Vec<Cost> {
+        let has = |cost: &Cost| self.entries.iter().filter(|entry| of(entry)).all(|entry| cost.of(entry.row).is_some());
+        let shaders: Vec<Cost> = [Cost::Device, Cost::Instructions].into_iter().filter(has).collect();
+        if shaders.is_empty() { vec![self.cost] } else { shaders }
+    }
+
+    /// What a method costs; of the plot's kind it is the mean over the domains.
+    fn spent(&self, entry: &Entry<'a>, cost: Cost) -> Option<f64> {
+        if cost == self.cost { Some(entry.cost) } else { cost.of(entry.row) }
+    }
+
+    /// Leaves those whose cost is about the least, by this part or by the spreads.
+    fn retain_cheapest(&self, taken: &mut Vec<&Entry<'a>>, cost: Cost, alike: f64) {
+        let spent = |entry: &Entry<'a>| self.spent(entry, cost).unwrap_or(f64::INFINITY);
+        let Some(least) = taken.iter().copied().min_by(|a, b| spent(a).total_cmp(&spent(b))) else { return };
+        let spread = |entry: &Entry<'a>| cost.spread(entry.row).unwrap_or(0.0);
+        taken.retain(|entry| spent(entry) <= spent(least) * (1.0 + alike.max(spread(entry) + spread(least))));
     }
 
     /// Of some of the methods that which a budget takes; none of none.
-    fn pick(&self, budget: Budget, cost: Cost, of: impl Fn(&Entry<'a>) -> bool) -> Option<&Entry<'a>> {
-        let spent = |entry: &Entry<'a>| if cost == self.cost { Some(entry.cost) } else { cost.of(entry.row) };
-        let taken = self.entries.iter().filter(|entry| of(entry));
-        let taken: Vec<Taken<'_, 'a>> = taken.filter_map(|entry| Some((entry, spent(entry)?))).collect();
-        let front = unbeaten(&taken, cost);
-        // Entries stand in the order of their errors.
-        let (best, _) = *front.first()?;
-        let film = || cheapest(&front, (1.05 * best.rms).max(self.unit.limit(Budget::Film))).unwrap_or(best);
-        match budget {
-            Budget::Film => Some(film()),
-            Budget::Mobile => {
-                let limit = self.unit.limit(budget);
-                Some(smallest(&taken, cost, limit).or_else(|| cheapest(&front, limit)).unwrap_or_else(film))
-            }
-            Budget::Desktop => Some(cheapest(&front, self.unit.limit(budget)).unwrap_or_else(film)),
+    fn pick(&self, budget: Budget, costs: &[Cost], of: impl Fn(&Entry<'a>) -> bool) -> Option<&Entry<'a>> {
+        let has = |entry: &&Entry<'a>| of(entry) && costs.iter().all(|&cost| self.spent(entry, cost).is_some());
+        let all: Vec<&Entry<'a>> = self.entries.iter().filter(has).collect();
+        let within = |limit: f64| all.iter().copied().filter(|entry| entry.rms <= limit).collect::<Vec<_>>();
+        let mut taken = within(self.unit.limit(budget));
+        if taken.is_empty() || budget == Budget::Film {
+            let least = all.iter().map(|entry| entry.rms).fold(f64::INFINITY, f64::min);
+            taken = within((1.05 * least).max(self.unit.limit(Budget::Film)));
+        } else if budget == Budget::Mobile && all.iter().all(|entry| entry.row.bytes.is_some()) {
+            self.retain_cheapest(&mut taken, *costs.first()?, ALIKE);
+            let least = taken.iter().filter_map(|entry| entry.row.bytes).min();
+            taken.retain(|entry| entry.row.bytes == least);
         }
+        for &cost in costs {
+            let alike = if cost.is_time() { ALIKE } else { AS_LONG };
+            self.retain_cheapest(&mut taken, cost, if cost == Cost::Bytes { 0.0 } else { alike });
+        }
+        let order = |entry: &Entry<'a>| (terms::place(self.term, &entry.row.method), entry.row.method.as_str());
+        taken.into_iter().min_by(|a, b| a.rms.total_cmp(&b.rms).then_with(|| order(a).cmp(&order(b))))
     }
 
     /// Whether the method keeps the budget's limit, or is only the best that there is.
@@ -173,18 +158,19 @@ mod tests {
     /// Of methods that read the same memory and take as long, within their spread, a phone takes the more accurate one.
     #[test]
     fn of_the_same_memory_a_phone_takes_the_more_accurate() {
-        let of = |method: &str, error, gpu_ns, spread| Row {
+        let of = |method: &str, error, gpu_ns, spread, instructions| Row {
             term: "level_map".into(),
             gpu_ns: Some(gpu_ns),
             gpu_spread: Some(spread),
+            instructions: Some(instructions),
             bytes: Some(16_773_120),
             ..row(method, "studio; relative", error, 120.0)
         };
         let rows = vec![
-            of("hermite", 0.0062, 189.9, 0.001),
-            of("geometric", 0.0488, 175.9, 0.002),
-            of("linear", 0.0514, 173.5, 0.008),
-            of("report", 0.0514, 169.5, 0.066),
+            of("hermite", 0.0062, 189.9, 0.001, 371),
+            of("geometric", 0.0488, 175.9, 0.002, 336),
+            of("linear", 0.0514, 173.5, 0.008, 328),
+            of("report", 0.0514, 169.5, 0.066, 329),
         ];
         let found = comparisons(&rows);
         let mobile = found[0].recommended(Budget::Mobile);
@@ -219,17 +205,105 @@ mod tests {
             ..row(method, "one; relative", error, 0.0)
         };
         let found = |strips: Option<f64>, bent: Option<f64>, spread: f64| {
-            let rows = vec![of("strips", 0.05, 500, strips, spread), of("bent", 0.08, 600, bent, spread)];
+            let rows = vec![of("strips", 0.05, 520, strips, spread), of("bent", 0.08, 470, bent, spread)];
             let found = comparisons(&rows);
             let choice = found[0].recommended(Budget::Mobile);
             (found[0].cost, choice.weighed, choice.entry.row.method.clone())
         };
         assert_eq!(found(Some(617.0), Some(216.0), 0.05), (Cost::Device, Cost::Device, "bent".to_owned()));
-        assert_eq!(found(Some(222.0), Some(216.0), 0.05), (Cost::Device, Cost::Device, "strips".to_owned()));
-        // Times that say little leave the choice to the instructions, and so does a machine without a device.
-        let counted = (Cost::Instructions, Cost::Instructions, "strips".to_owned());
-        assert_eq!(found(Some(617.0), Some(216.0), 0.3), counted);
-        assert_eq!(found(None, None, 0.0), counted);
+        // Times that are alike, or as wide as their difference, leave the choice to the instructions, and so does a machine without a device.
+        assert_eq!(found(Some(216.0), Some(222.0), 0.05), (Cost::Device, Cost::Device, "bent".to_owned()));
+        assert_eq!(found(Some(200.0), Some(300.0), 0.3).2, "bent");
+        assert_eq!(found(None, None, 0.0), (Cost::Instructions, Cost::Instructions, "bent".to_owned()));
+    }
+
+    /// Figures of the committed quick run and of a full one: what noise of times there is changes no choice, and neither does twice as much.
+    #[test]
+    fn two_runs_of_one_machine_choose_alike() {
+        type Method = (&'static str, f64, u64, [f64; 2], Option<u64>);
+        const TERMS: [(&str, &str, &[Method]); 6] = [
+            (
+                "fresnel",
+                "absolute",
+                &[("schlick", 0.03, 371, [190.0, 190.0], None), ("exact", 5e-8, 462, [194.0, 195.0], None)],
+            ),
+            (
+                "compensation",
+                "relative",
+                &[
+                    ("kulla_conty", 0.031, 480, [199.0, 201.0], None),
+                    ("turquin", 0.0315, 371, [190.0, 190.0], None),
+                    ("fdez_aguera", 0.037, 378, [181.0, 187.0], None),
+                    ("none", 0.23, 349, [186.0, 194.0], None),
+                ],
+            ),
+            (
+                "level_map",
+                "relative",
+                &[
+                    ("hermite", 0.0062, 371, [189.9, 190.0], Some(17_000_000)),
+                    ("geometric", 0.0488, 336, [175.9, 190.0], Some(17_000_000)),
+                    ("linear", 0.0514, 328, [173.5, 179.0], Some(17_000_000)),
+                    ("report", 0.0514, 329, [169.5, 153.0], Some(17_000_000)),
+                ],
+            ),
+            (
+                "irradiance",
+                "relative",
+                &[
+                    ("cube", 5.7e-6, 371, [190.0, 190.0], Some(9_600_000)),
+                    ("last_level", 0.0018, 418, [240.0, 249.0], Some(12_000)),
+                    ("sh2", 0.053, 426, [205.0, 216.0], Some(144)),
+                ],
+            ),
+            (
+                "normal_frame",
+                "degrees",
+                &[
+                    ("tbn_derivative", 1.02, 550, [208.0, 210.0], None),
+                    ("tbn", 1.9, 466, [212.0, 215.0], None),
+                    ("rotation_fixed", 80.0, 512, [207.0, 207.0], None),
+                ],
+            ),
+            (
+                "anisotropy",
+                "relative",
+                &[("strips", 0.26, 522, [605.0, 625.0], None), ("bent", 0.27, 472, [209.0, 210.0], None)],
+            ),
+        ];
+        // Numbers in -1..1.
+        let mut state = 7_u32;
+        let mut noise = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 23) - 1.0
+        };
+        for (term, unit, methods) in TERMS {
+            let mut chosen: Vec<[String; 3]> = Vec::new();
+            for number in 0..200 {
+                let of = |&(method, error, instructions, times, bytes): &Method, noise: f64| Row {
+                    term: term.into(),
+                    instructions: Some(instructions),
+                    // The runs as they were, and then 5 % of noise on either.
+                    gpu_ns: Some(times[number % 2] * if number < 2 { 1.0 } else { 1.0 + 0.05 * noise }),
+                    gpu_spread: Some(if number % 2 == 0 { 0.02 } else { 0.12 }),
+                    bytes,
+                    ..row(method, &format!("one; {unit}"), error, 100.0)
+                };
+                let rows: Vec<Row> = methods.iter().map(|method| of(method, noise())).collect();
+                let found = comparisons(&rows);
+                chosen.push(Budget::ALL.map(|budget| found[0].recommended(budget).entry.row.method.clone()));
+            }
+            assert!(chosen.iter().all(|other| *other == chosen[0]), "{term}: {chosen:?}");
+        }
+    }
+
+    /// What is as accurate and as cheap as another is told apart by the list of methods.
+    #[test]
+    fn of_equals_the_list_says_which() {
+        let of = |method: &str| Row { term: "level_map".into(), ..row(method, "studio; relative", 0.05, 100.0) };
+        for rows in [[of("report"), of("linear")], [of("linear"), of("report")]] {
+            assert_eq!(comparisons(&rows)[0].recommended(Budget::Mobile).entry.row.method, "linear");
+        }
     }
 
     /// Where no method is good enough, no budget pays for the last hundredth of an error.

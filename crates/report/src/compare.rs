@@ -21,7 +21,7 @@ type Figure = (&'static str, fn(&Row) -> Option<f64>);
 /// Something that became worse.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// What: `slower`, `longer`, `larger`, `less accurate`, `less alike`, `more results that are no numbers`, `gone`.
+    /// What: `slower`, `longer`, `larger`, `less accurate`, `less sure`, `less alike`, `more results that are no numbers`, `gone`.
     pub what: &'static str,
     /// The row, as it was.
     pub term: String,
@@ -107,10 +107,14 @@ fn lost_part(left: &LeftOut) -> Change {
     Change::of("gone", &Row::new("part", &left.part, "every row of the part"), "part", figures)
 }
 
-/// Why a picture's example has no rows, where the report says it.
+/// Why a picture's example has no rows, or a drawer none of it, where the report says it.
 fn left_out(row: &Row, new: &Report) -> String {
     let example = row.domain.split(':').next();
-    let is_of = |left: &&LeftOut| left.part == row.part && left.what.is_some() && left.what.as_deref() == example;
+    let is_of = |left: &&LeftOut| {
+        let what = left.what.as_deref();
+        let is_method = what.and_then(|what| what.rsplit_once(", ")) == example.map(|name| (name, row.method.as_str()));
+        left.part == row.part && what.is_some() && (what == example || is_method)
+    };
     new.left_out.iter().find(is_of).map_or_else(String::new, |left| format!(": {}", left.why))
 }
 

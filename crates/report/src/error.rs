@@ -1,4 +1,6 @@
-//! Errors gathered over a domain.
+//! Errors gathered over a domain, and the names of inputs.
+
+use std::fmt::Debug;
 
 /// Largest and mean-square error, and where the largest stands. Sums in f64, in the order given: the same every run.
 #[derive(Clone, Debug, Default)]
@@ -34,5 +36,31 @@ impl Errors {
     /// Puts the figures into a row.
     pub fn fill(&self, row: &mut crate::Row) {
         (row.error_max, row.error_rms, row.at) = (Some(self.max), Some(self.rms()), Some(self.at.clone()));
+    }
+}
+
+/// An input with the names of its arguments, each of so many numbers: `n.v = 0.02, f0 = [0.04, 0.04, 0.04]`. The numbers are whole, so that
+/// a program can read them back.
+pub(crate) fn named<T: Debug>(names: &[(&str, usize)], numbers: &[T]) -> String {
+    let mut rest = numbers;
+    let said = names.iter().map(|&(name, count)| {
+        let (own, others) = rest.split_at(count.min(rest.len()));
+        rest = others;
+        match own {
+            [number] => format!("{name} = {number:?}"),
+            all => format!("{name} = {all:?}"),
+        }
+    });
+    said.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_argument_has_its_name() {
+        let names = [("view", 3), ("alpha", 1)];
+        assert_eq!(named(&names, &[0.0, 0.6, 0.8, 1.5e-6]), "view = [0.0, 0.6, 0.8], alpha = 1.5e-6");
     }
 }

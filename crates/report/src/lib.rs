@@ -29,7 +29,7 @@ pub mod words;
 pub mod write;
 
 pub use comparison::mark_pareto;
-pub use part::{PARTS, Part, Run};
+pub use part::{PARTS, Part, Run, SoFar};
 pub use report::{Report, ReportError};
 pub use row::Row;
 

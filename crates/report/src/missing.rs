@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Row;
+use crate::part::ibl::NOT_TIMED;
 use crate::part::shaders;
 
 /// Why some rows of a part and term have no figure of a kind.
@@ -24,7 +25,7 @@ pub struct Null {
 pub struct LeftOut {
     /// The part.
     pub part: String,
-    /// What of it: an example's name, or [`DEVICE`]; none where it is the whole part.
+    /// What of it: an example's name, `an example, a method`, or [`DEVICE`]; none where it is the whole part.
     pub what: Option<String>,
     /// The reason.
     pub why: String,
@@ -57,9 +58,27 @@ const FIGURES: [(&str, Lacks); 8] = [
     ("bytes", |row| row.bytes.is_none()),
 ];
 
-/// The reasons for all rows, in the order of the rows; the same reason for the same part, term and figure once.
-pub fn nulls(rows: &[Row]) -> Vec<Null> {
-    let device = rows.iter().any(|row| row.gpu.is_some());
+/// Whether a run has a device, as far as it is known.
+#[derive(Clone, Copy, PartialEq)]
+enum Device {
+    /// Something was measured on one.
+    Found,
+    /// It was looked for.
+    NotFound,
+    /// No part that needs one was measured.
+    NotSought,
+}
+
+/// The reasons for all rows, in the order of the rows; the same reason for the same part, term and figure once. `left_out` says whether
+/// a device was looked for in vain.
+pub fn nulls(rows: &[Row], left_out: &[LeftOut]) -> Vec<Null> {
+    let device = if rows.iter().any(|row| row.gpu.is_some()) {
+        Device::Found
+    } else if left_out.iter().any(|left| left.what.as_deref() == Some(DEVICE)) {
+        Device::NotFound
+    } else {
+        Device::NotSought
+    };
     let mut found: Vec<Null> = Vec::new();
     for row in rows {
         for (figure, _) in FIGURES.iter().filter(|(_, is_null)| is_null(row)) {
@@ -82,7 +101,7 @@ pub fn of(row: &Row) -> Vec<&'static str> {
     FIGURES.iter().filter(|(_, is_null)| is_null(row)).map(|(figure, _)| *figure).collect()
 }
 
-fn why(row: &Row, figure: &str, device: bool) -> &'static str {
+fn why(row: &Row, figure: &str, device: Device) -> &'static str {
     match figure {
         "error_rms" | "error_max" | "at" => no_error(row, figure),
         "cost_ns" | "cost_batch_ns" => no_time(row, figure),
@@ -101,7 +120,7 @@ fn no_error(row: &Row, figure: &str) -> &'static str {
     match (row.part.as_str(), row.term.as_str()) {
         ("shaders", _) => "a shader's cost: the errors of the method are rows of their own",
         ("maps", "normal_decode") => "a single texel: its error is the largest one",
-        ("pictures", _) if figure == "at" => "no pixel is farther off than the reference's noise",
+        ("pictures", _) if figure == "at" => "no pixel differs, or none by more than the reference's noise",
         ("pictures", _) => "the noise of the reference hides it: error_bound is what it is at most",
         ("precision", _) => "the form in 64 bits is what the others are held against",
         ("ibl", "split_sum") => "the sum over all light is the truth",
@@ -113,6 +132,9 @@ fn no_error(row: &Row, figure: &str) -> &'static str {
 
 fn no_time(row: &Row, figure: &str) -> &'static str {
     let is_batch = figure == "cost_batch_ns";
+    if is_batch && row.note.as_deref() == Some(NOT_TIMED) {
+        return NOT_TIMED;
+    }
     match (row.part.as_str(), row.term.as_str()) {
         ("shaders", _) => "a shader is counted, and timed on the device",
         ("ibl", "prefilter") => "a bake is timed as a whole, and shared out among its texels in cost_batch_ns",
@@ -125,11 +147,14 @@ fn no_time(row: &Row, figure: &str) -> &'static str {
     }
 }
 
-fn no_shader(row: &Row, figure: &str, device: bool) -> &'static str {
+fn no_shader(row: &Row, figure: &str, device: Device) -> &'static str {
     match row.part.as_str() {
         "pictures" if row.method == "cpu" => "the processor draws it",
         "precision" | "peers" => "it is no whole shader, or one that was not drawn",
-        _ if !device && figure == "gpu_ns" => "no device was found",
+        _ if device == Device::NotFound && figure == "gpu_ns" => "no device was found",
+        _ if device == Device::NotSought && figure == "gpu_ns" => {
+            "nothing was measured on a device so far: the parts shaders and pictures do it"
+        }
         "shaders" if shaders::reads_no_file(row) => "the height map that it reads is no file, so that it is not drawn",
         "shaders" => "the device has no clock, or refused it",
         _ if figure == "gpu_ns" && row.instructions.is_some() => "its shader is not drawn: see the row of part shaders",
@@ -153,10 +178,23 @@ mod tests {
             ..Row::new("d", method, "all")
         };
         let rows = [row("a"), row("b")];
-        let found = nulls(&rows);
+        let found = nulls(&rows, &[]);
         let figures: Vec<&str> = found.iter().map(|null| null.figure.as_str()).collect();
         assert_eq!(figures, ["error_max", "at", "cost_batch_ns", "instructions", "gpu_ns", "bytes"]);
         assert_eq!(of(&rows[0]), figures);
         assert!(found.iter().all(|null| !null.why.is_empty()));
+    }
+
+    /// A run of parts that need no device does not say that there is none.
+    #[test]
+    fn a_device_that_was_not_sought_is_not_missed() {
+        let rows = [Row { part: "brdf".into(), ..Row::new("d", "a", "all") }];
+        let why = |left_out: &[LeftOut]| {
+            let found = nulls(&rows, left_out).into_iter().find(|null| null.figure == "gpu_ns");
+            found.expect("a reason").why
+        };
+        assert!(why(&[]).starts_with("nothing was measured on a device"), "{}", why(&[]));
+        let left = LeftOut { part: "shaders".into(), what: Some(DEVICE.into()), why: "none was found".into() };
+        assert_eq!(why(&[left]), "no device was found");
     }
 }

@@ -11,6 +11,7 @@ use crate::timing::median;
 use crate::unit::{Budget, Unit};
 use crate::{PARTS, Report, Row, terms, words};
 
+mod split_sum;
 mod tables;
 
 const STYLE: &str = include_str!("page/style.css");
@@ -66,11 +67,9 @@ fn head(report: &Report, comparisons: &[Comparison<'_>], chapters: &[&str], page
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>Halfvector: speed against error</title>\n<style>\n{STYLE}@media (prefers-color-scheme: dark) {{ {dark} }}\n\
          </style>\n</head>\n<body>\n<header>\n<h1>Speed against error</h1>\n\
-         <p class=\"lead\">Every approximation of Halfvector, how wrong it is and what it costs: {} figures of {} methods, \
-         measured in one run, each error against a truth in double precision.</p>\n<ul class=\"facts\"><li>{}</li>\
-         <li>{}</li><li>{effort}</li></ul>\n",
-        report.rows.len(),
-        methods(report),
+         <p class=\"lead\">Every approximation of Halfvector, how wrong it is and what it costs: {}, each error against a truth in \
+         double precision.</p>\n<ul class=\"facts\"><li>{}</li><li>{}</li><li>{effort}</li></ul>\n",
+        counted(report),
         escaped(&report.machine),
         escaped(&report.date),
     );
@@ -100,31 +99,40 @@ fn head(report: &Report, comparisons: &[Comparison<'_>], chapters: &[&str], page
     page.push_str("<a href=\"#how\">how it is measured</a></nav>\n</header>\n<main>\n");
 }
 
-/// How many different methods there are.
-fn methods(report: &Report) -> usize {
+/// How many methods and cases there are, and which of them are of this run.
+fn counted(report: &Report) -> String {
     let names: std::collections::HashSet<_> = report.rows.iter().map(|row| (&row.term, &row.method)).collect();
-    names.len()
+    let recorded = report.rows.iter().filter(|row| row.recorded.is_some()).count();
+    let mut text = format!("{} methods in {} cases, measured in this run", names.len(), report.rows.len() - recorded);
+    if report.rows.iter().any(|row| !row.part.is_empty() && !report.parts.contains(&row.part)) {
+        text.push_str(" until it was interrupted");
+    }
+    match recorded {
+        0 => text,
+        1 => text + " (one more, of another program, was recorded earlier, as its line says)",
+        n => format!("{text} ({n} more, of other programs, were recorded earlier, as their lines say)"),
+    }
 }
 
 fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
     if comparisons.is_empty() {
         return;
     }
-    let limit =
-        |budget| format!("{} % ({}° for angles)", 100.0 * Unit::Relative.limit(budget), Unit::Degrees.limit(budget));
     let _ = write!(
         page,
-        "<h2 id=\"choose\">What to choose</h2>\n<p>Made from the figures below by one rule. <b>Mobile</b> takes the cheapest \
-         method whose rms error is at most {}, <b>desktop</b> the cheapest within {}, <b>film</b> the cheapest of \
-         those within 5 % of the least error. Where no method keeps a limit, the one for film stands in brackets. What is weighed is the time \
-         on the device{} where every method has one; where these times spread by more than 10 %, the instructions of the same shaders; else the \
-         time of one element of a batch or of one call, else memory; the figure says which. Of methods that take as long, within their spread \
-         (20 % at most), it is the more accurate; for mobile, of those that take up to 1.2 times as long as the cheapest, the one that reads the \
-         least memory, where it is known of all. Only what \
-         <code>--method</code> knows is recommended; where the library alone has something better it is named below.</p>\n<section class=\"card\"><div class=\"scroll\"><table><thead><tr><th>term</th>\
+        "<h2 id=\"choose\">What to choose</h2>\n<p>Made from the figures below by one rule. Each budget takes the cheapest of the methods \
+         that err little enough.</p>\n<ul><li><b>Little enough</b> is an rms error of at most {} for <b>mobile</b> and {} for <b>desktop</b>; \
+         for <b>film</b> it is what is within 5 % of the least error. Where no method errs as little, the one for film stands there, and is \
+         marked <span class=\"tag plain\">over the limit</span>.</li>\n<li><b>Cheapest</b> is by the time on the device{}, where every method \
+         has one, and then by the instructions of the same shaders; else by the cost of the figure below. Times on one machine change from run \
+         to run: those that differ by less than 50 %, or by less than their spreads, are alike, as are instructions that differ by less than \
+         5 %. For mobile memory comes first, where it is known of all: of those that take up to half as long again as the cheapest, the one \
+         that reads the least.</li>\n<li>Of methods that are alike in all this it is the most <b>accurate</b>, and of equals that which \
+         <code>halfvector methods</code> lists first.</li></ul>\n<p>Only what <code>--method</code> knows is recommended; where the library alone \
+         has something better it is named below.</p>\n<section class=\"card\"><div class=\"scroll\"><table class=\"choices\"><thead><tr><th>term</th>\
          <th>mobile</th><th>desktop</th><th>film</th></tr></thead><tbody>\n",
-        limit(Budget::Mobile),
-        limit(Budget::Desktop),
+        words::limits(Budget::Mobile),
+        words::limits(Budget::Desktop),
         device(comparisons).map_or(String::new(), |name| format!(" ({})", escaped(name))),
     );
     for comparison in comparisons {
@@ -139,7 +147,7 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
         for budget in Budget::ALL {
             let Choice { entry, weighed, keeps, library_only, of_library } = comparison.recommended(budget);
             let figures = figures(comparison, entry, weighed);
-            let brackets = if keeps { figures } else { format!("({figures})") };
+            let over = if keeps { "" } else { "<span class=\"tag plain\">over the limit</span>" };
             let tag = if library_only { "<span class=\"tag plain\">library only</span>" } else { "" };
             let of_library = of_library.map_or(String::new(), |entry| {
                 format!(
@@ -150,9 +158,10 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
             });
             let _ = write!(
                 page,
-                "<td><b>{}</b>{tag}<br><span class=\"muted\">{}</span>{of_library}</td>",
+                "<td data-label=\"{}\"><b>{}</b>{tag}{over}<br><span class=\"muted\">{}</span>{of_library}</td>",
+                budget.name(),
                 escaped(&entry.row.method),
-                escaped(&brackets)
+                escaped(&figures)
             );
         }
         page.push_str("</tr>\n");
@@ -174,7 +183,9 @@ fn figures(comparison: &Comparison<'_>, entry: &Entry<'_>, weighed: Cost) -> Str
     let place = if weighed == Cost::Device { " on the device" } else { "" };
     let memory = entry.row.bytes.filter(|_| weighed != Cost::Bytes && comparison.cost != Cost::Bytes);
     let memory = memory.map_or(String::new(), |bytes| format!(", {}", words::cost(bytes as f64, Cost::Bytes)));
-    format!("{}, {cost}{place}{memory}", words::error(entry.rms, comparison.unit))
+    let count = entry.row.instructions.filter(|_| weighed == Cost::Device);
+    let count = count.map_or(String::new(), |count| format!(", {}", words::cost(count as f64, Cost::Instructions)));
+    format!("{}, {cost}{place}{count}{memory}", words::error(entry.rms, comparison.unit))
 }
 
 /// What there is to show of a term, below its heading; empty when it is told elsewhere.
@@ -199,6 +210,7 @@ fn chapter(term: &str, report: &Report, comparisons: &[Comparison<'_>]) -> Strin
     let others: Vec<&Row> = others.into_iter().filter(|row| !told(row) && !is_truth(row)).collect();
     // What a shader alone costs has no error, and what has one makes a table of its own.
     let (wrong, counted): (Vec<&Row>, Vec<&Row>) = others.into_iter().partition(|row| !is_count(row));
+    let wrong = if term == "split_sum" { split_sum::figures(&wrong, &mut page) } else { wrong };
     for rows in [wrong, counted].iter().filter(|rows| !rows.is_empty()) {
         tables::section(rows, &mut page);
     }
@@ -410,13 +422,18 @@ fn foot(report: &Report, page: &mut String) {
 
 /// Words that the names of methods and inputs take for known.
 fn glossary() -> String {
-    const WORDS: [(&str, &str); 12] = [
+    const WORDS: [(&str, &str); 14] = [
         (
             "the report's",
             "the form of the report that this project began with; kept beside the better ones, to be measured",
         ),
         ("default", "what is taken when nothing is chosen"),
+        (
+            "relative, absolute",
+            "a relative error is a part of the truth, in %; an absolute one is a difference of quantities that go from 0 to 1",
+        ),
         ("rms error", "root of the mean square of the errors over the inputs"),
+        ("largest at", "the input of the largest error, by the names of the function's arguments"),
         ("n.v, n.l, n.h, l.h", "cosines between the normal, the directions of view and light, and the half vector"),
         ("roughness, alpha", "perceptual roughness, 0 to 1, and its square, which the equations take"),
         (
@@ -445,19 +462,30 @@ fn nulls(report: &Report) -> String {
     if report.nulls.is_empty() {
         return String::new();
     }
-    let row = |null: &crate::missing::Null| {
+    // The terms that share a reason make one line.
+    let mut lines: Vec<(&str, Vec<&str>, &str, &str)> = Vec::new();
+    for null in &report.nulls {
+        let is_same = |line: &&mut (&str, Vec<&str>, &str, &str)| {
+            [line.0, line.2, line.3] == [null.part.as_str(), null.figure.as_str(), null.why.as_str()]
+        };
+        match lines.iter_mut().find(is_same) {
+            Some((_, terms, ..)) => terms.push(&null.term),
+            None => lines.push((&null.part, vec![&null.term], &null.figure, &null.why)),
+        }
+    }
+    let row = |(part, terms, figure, why): &(&str, Vec<&str>, &str, &str)| {
         format!(
             "<tr><td>{}</td><td>{}</td><td><code>{}</code></td><td>{}</td></tr>\n",
-            escaped(&null.part),
-            escaped(&null.term),
-            escaped(&null.figure),
-            escaped(&null.why)
+            escaped(part),
+            escaped(&terms.join(", ")),
+            escaped(figure),
+            escaped(why)
         )
     };
     format!(
-        "<details><summary>Why figures are not there</summary><div class=\"scroll\"><table><thead><tr><th>part</th><th>term</th>\
+        "<details><summary>Why figures are not there</summary><div class=\"scroll\"><table><thead><tr><th>part</th><th>terms</th>\
          <th>figure</th><th>why some of its rows have none</th></tr></thead><tbody>\n{}</tbody></table></div></details>\n",
-        report.nulls.iter().map(row).collect::<String>()
+        lines.iter().map(row).collect::<String>()
     )
 }
 
@@ -474,5 +502,35 @@ mod tests {
         let (part, what, why) = ("pictures".into(), Some("helmet.scene".into()), "no such file".into());
         report.left_out.push(LeftOut { part, what, why });
         assert!(html(&report).contains("Not measured: pictures: helmet.scene: no such file."));
+    }
+
+    /// The head says what is of this run, and what is only shown.
+    #[test]
+    fn what_was_recorded_is_not_called_measured() {
+        let mut report = Report::begun(Effort::Quick);
+        let of = |method: &str| Row { part: "peers".into(), ..Row::new("peer", method, "a bake; now") };
+        report.rows = vec![of("ours"), Row { recorded: Some("2026-11-22, a machine".into()), ..of("theirs") }];
+        let page = html(&report);
+        assert!(
+            page.contains("2 methods in 1 cases, measured in this run until it was interrupted (one more, "),
+            "{page}"
+        );
+        report.parts.push("peers".into());
+        assert!(html(&report).contains("measured in this run (one more, of another program, was recorded earlier"));
+    }
+
+    /// A choice that keeps no limit says so, and absolute errors have a limit of their own.
+    #[test]
+    fn what_is_over_the_limit_is_marked() {
+        let row = |method: &str, error| Row {
+            error_rms: Some(error),
+            cost_ns: Some(1.0),
+            part: "lobes".into(),
+            ..Row::new("sheen", method, "all; relative error")
+        };
+        let report = Report { rows: vec![row("ring", 0.2), row("irradiance", 0.3)], ..Report::begun(Effort::Quick) };
+        let page = html(&report);
+        assert_eq!(page.matches("<b>ring</b><span class=\"tag plain\">over the limit</span>").count(), 2, "{page}");
+        assert!(page.contains("at most 10 % of the truth (0.1 where it is absolute, 5° for angles)"), "{page}");
     }
 }

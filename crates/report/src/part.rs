@@ -15,27 +15,43 @@ pub mod pictures;
 pub mod precision;
 pub mod shaders;
 pub mod specular_aa;
-mod split_sum;
+pub(crate) mod split_sum;
 mod stations;
 mod texels;
 
+pub(crate) use self::texels::DECODED;
 use std::sync::{Mutex, PoisonError};
 
 use crate::missing::LeftOut;
 use crate::{Effort, Row};
 
+/// What there is of a part while it is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct SoFar<'a> {
+    /// All rows of the part that are finished, none where they are the same as before.
+    pub rows: &'a [Row],
+    /// What was not measured until now, and why.
+    pub left_out: &'a [LeftOut],
+    /// How much of the part is done, 0 to 1.
+    pub done: f64,
+}
+
 /// A part while it is measured: how long to measure, and who is told what is finished.
 pub struct Run<'a> {
     effort: Effort,
-    keep: &'a (dyn Fn(&[Row], f64) + Sync),
+    told: &'a (dyn Fn(SoFar<'_>) + Sync),
     left_out: Mutex<Vec<LeftOut>>,
 }
 
 impl<'a> Run<'a> {
-    /// `keep` gets all rows of the part that are finished so far, none where they are the same as before, and how much of
-    /// the part is done, 0 to 1. It may be called from any thread.
-    pub fn new(effort: Effort, keep: &'a (dyn Fn(&[Row], f64) + Sync)) -> Run<'a> {
-        Run { effort, keep, left_out: Mutex::default() }
+    /// `told` gets what is finished whenever there is more of it. It may be called from any thread.
+    pub fn new(effort: Effort, told: &'a (dyn Fn(SoFar<'_>) + Sync)) -> Run<'a> {
+        Run { effort, told, left_out: Mutex::default() }
+    }
+
+    /// With nobody listening.
+    pub fn alone(effort: Effort) -> Run<'static> {
+        Run::new(effort, &|_| ())
     }
 
     /// What was not measured so far, and why.
@@ -56,12 +72,22 @@ impl<'a> Run<'a> {
 
     /// These rows are finished, and so much of the part is done.
     pub(crate) fn keep(&self, rows: &[Row], done: f64) {
-        (self.keep)(rows, done);
+        (self.told)(SoFar { rows, left_out: &self.left_out(), done });
     }
 
     /// So much of the part is done.
     pub(crate) fn at(&self, done: f64) {
-        (self.keep)(&[], done);
+        self.keep(&[], done);
+    }
+
+    /// The rows of pieces of a part, measured one after the other and kept as they are finished.
+    pub(crate) fn pieces<T>(&self, pieces: &[T], rows_of: impl Fn(&T) -> Vec<Row>) -> Vec<Row> {
+        let mut rows = Vec::new();
+        for (done, piece) in pieces.iter().enumerate() {
+            rows.extend(rows_of(piece));
+            self.keep(&rows, (done + 1) as f64 / pieces.len() as f64);
+        }
+        rows
     }
 }
 
@@ -76,7 +102,7 @@ pub struct Part {
 impl Part {
     /// Its rows, with nobody listening.
     pub fn measured(&self, effort: Effort) -> Vec<Row> {
-        (self.rows)(&Run::new(effort, &|_, _| ()))
+        (self.rows)(&Run::alone(effort))
     }
 
     /// About how long it takes on two cores [s]; parts that are not named here are quick.
@@ -100,14 +126,14 @@ impl Part {
 /// All parts, in the order shown.
 pub const PARTS: &[Part] = &[
     Part { name: "shaders", rows: shaders::rows },
-    Part { name: "brdf", rows: |run| brdf::rows(run.effort()) },
-    Part { name: "energy", rows: |run| energy::rows(run.effort()) },
-    Part { name: "maps", rows: |run| maps::rows(run.effort()) },
-    Part { name: "mips", rows: |run| mips::rows(run.effort()) },
+    Part { name: "brdf", rows: brdf::rows },
+    Part { name: "energy", rows: energy::rows },
+    Part { name: "maps", rows: maps::rows },
+    Part { name: "mips", rows: mips::rows },
     Part { name: "ibl", rows: ibl::rows },
     Part { name: "lobes", rows: lobes::rows },
-    Part { name: "specular_aa", rows: |run| specular_aa::rows(run.effort()) },
-    Part { name: "precision", rows: |run| precision::rows(run.effort()) },
+    Part { name: "specular_aa", rows: specular_aa::rows },
+    Part { name: "precision", rows: precision::rows },
     Part { name: "pictures", rows: pictures::rows },
     Part { name: "peers", rows: peers::rows },
 ];

@@ -3,6 +3,8 @@
 //! Colours are presentation attributes of a light page. A page that is dark, too, overrides them by their value
 //! ([`DARK`]).
 
+pub mod curves;
+
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -71,7 +73,11 @@ pub fn scatter(comparison: &Comparison<'_>) -> String {
     let mut svg = String::new();
     draw(comparison, SVGBackend::with_string(&mut svg, SIZE).into_drawing_area())
         .expect("a string takes every drawing");
-    let title = escaped(&words::finding(comparison).replace('`', ""));
+    in_page(&svg, &escaped(&words::finding(comparison).replace('`', "")))
+}
+
+/// A drawing for a page, with what it shows for those who do not see it.
+fn in_page(svg: &str, title: &str) -> String {
     svg.replacen("<svg ", "<svg role=\"img\" ", 1).replacen(">\n", &format!(">\n<title>{title}</title>\n"), 1)
 }
 

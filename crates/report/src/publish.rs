@@ -68,14 +68,15 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
          precision, times as medians of interleaved runs, to be read as ratios. Measured on {}, {}, {}.\n\nThis page is made of \
          [`accuracy.json`](accuracy.json). To renew both:\n\n```sh\ncargo run --release -- report{} -o out/report\ncp \
          out/report/report.json docs/accuracy.json\nHALFVECTOR_BLESS=1 cargo test --workspace --test all -- accuracy\n```\n\n\
-         `out/report/index.html` is the same with plots, inputs and where each error is largest.\n\n## What to choose\n\nThe \
-         cheapest method whose rms error is within {} % ({}° for angles) for **mobile** and within {} % ({}°) for **desktop**; the \
-         cheapest of those within 5 % of the least error for **film**. In brackets: no method keeps the limit, this is the one for film. \
-         What is weighed is the time on the device{} where every method has one, the instructions of the same shaders where these times spread by \
-         more than 10 %, else the cost in the tables below; of methods that take as long, within their spread (20 % at most), it is the more \
-         accurate; for mobile, of those that take up to 1.2 times as long as the cheapest, the one that reads the least memory, where it is known \
-         of all. Only what `--method` knows is recommended, and what the library alone \
-         has stands behind it.\n\n\
+         `out/report/index.html` is the same with plots, inputs and where each error is largest.\n\n## What to choose\n\nEach \
+         budget takes the cheapest of the methods that err little enough.\n\n* Little enough is an rms error of at most {} for **mobile** and {} \
+         for **desktop**; for **film** it is what is within 5 % of the least error. Where no method errs as little, the one for film stands there, \
+         marked *over the limit*.\n* Cheapest is by the time on the device{}, where every method has one, and then by the instructions of the \
+         same shaders; else by the cost in the tables below. Times on one machine change from run to run: those that differ by less than 50 %, \
+         or by less than their spreads, are alike, as are instructions that differ by less than 5 %. For mobile memory comes first, where it is \
+         known of all: of those that take up to half as long again as the cheapest, the one that reads the least.\n* Of methods that are alike \
+         in all this it is the most accurate, and of equals that which `halfvector methods` lists first.\n\nOnly what `--method` knows is \
+         recommended, and what the library alone has stands behind it.\n\n\
          | term | inputs | mobile | desktop | film |\n|---|---|---|---|---|\n",
         report.machine,
         report.date,
@@ -84,10 +85,8 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
             Effort::Quick => " --quick",
             Effort::Full => "",
         },
-        100.0 * Unit::Relative.limit(Budget::Mobile),
-        Unit::Degrees.limit(Budget::Mobile),
-        100.0 * Unit::Relative.limit(Budget::Desktop),
-        Unit::Degrees.limit(Budget::Desktop),
+        words::limits(Budget::Mobile),
+        words::limits(Budget::Desktop),
         comparisons
             .iter()
             .flat_map(|comparison| &comparison.entries)
@@ -101,7 +100,7 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
                 format!("`{}` {}", cell(&entry.row.method), words::error(entry.rms, comparison.unit))
             };
             let text = said(choice.entry);
-            let text = if choice.keeps { text } else { format!("({text})") };
+            let text = if choice.keeps { text } else { format!("{text}, *over the limit*") };
             let text = if choice.library_only { format!("{text}, library only") } else { text };
             choice.of_library.map_or(text.clone(), |entry| format!("{text}; library: {}", said(entry)))
         });
@@ -157,18 +156,19 @@ fn precision(report: &Report, page: &mut String) {
         page,
         "\n## precision: {}\n\nHard cases: cosines from 1e-6, roughness from 0.0001; on the CPU, f16 with each operation \
          rounded{device}. The error is in units in the last place of the format; `lost` counts results that are NaN or infinite \
-         although the format holds the right one.\n\n| form and format | rms [ulp] | largest [ulp] | lost | first lost \
-         |\n|---|---|---|---|---|\n",
+         although the format holds the right one.\n\n| form and format | rms [ulp] | largest [ulp] | at | lost | first lost \
+         |\n|---|---|---|---|---|---|\n",
         words::precision(&rows)
     );
     for row in rows.iter().filter(|row| !row.method.contains(" f64")) {
         let number = |x: Option<f64>| x.map_or(String::new(), words::number);
         let _ = writeln!(
             page,
-            "| `{}` | {} | {} | {} | {} |",
+            "| `{}` | {} | {} | {} | {} | {} |",
             row.method,
             number(row.error_rms),
             number(row.error_max),
+            cell(&words::shortened(row.at.as_deref().unwrap_or(""))),
             row.not_finite.unwrap_or(0),
             cell(&words::shortened(row.first_failure.as_deref().unwrap_or("")))
         );

@@ -33,6 +33,10 @@ pub struct Report {
 /// The version of the layout.
 const SCHEMA: u32 = 1;
 
+/// Domains that have other words now, so that rows of older reports are known again.
+const RENAMED: [(&str, &str); 1] =
+    [("8-bit codes, normals of tilt 0..80 deg; angle to the stored normal in degrees", super::part::DECODED)];
+
 /// Why a text is no report.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
@@ -68,13 +72,14 @@ impl Report {
         self.rows.append(&mut rows);
         shaders::share(&mut self.rows);
         mark_pareto(&mut self.rows[first..]);
-        self.nulls = missing::nulls(&self.rows);
+        self.nulls = missing::nulls(&self.rows, &self.left_out);
     }
 
     /// Takes what a part left out in the place of what was said of it before.
     pub fn leave_out(&mut self, part: &str, left_out: Vec<LeftOut>) {
         self.left_out.retain(|left| left.part != part);
         self.left_out.extend(left_out);
+        self.nulls = missing::nulls(&self.rows, &self.left_out);
     }
 
     /// The rows of a part.
@@ -88,8 +93,16 @@ impl Report {
     ///
     /// When the text is not JSON of this layout.
     pub fn from_json(text: &str) -> Result<Report, ReportError> {
-        let report: Report = serde_json::from_str(text)?;
-        if report.schema == SCHEMA { Ok(report) } else { Err(ReportError::Version(report.schema)) }
+        let mut report: Report = serde_json::from_str(text)?;
+        if report.schema != SCHEMA {
+            return Err(ReportError::Version(report.schema));
+        }
+        for row in &mut report.rows {
+            if let Some((_, now)) = RENAMED.iter().find(|(before, _)| *before == row.domain) {
+                (*now).clone_into(&mut row.domain);
+            }
+        }
+        Ok(report)
     }
 
     /// The text of `report.json`, one row a line, so that two of them can be compared by eye. Numbers that JSON cannot hold
@@ -121,5 +134,8 @@ mod tests {
         let error = Report::from_json(&report.to_json()).expect_err("a later layout");
         assert_eq!(error.to_string(), "its layout is version 2; this program reads version 1");
         Report::from_json("{}").expect_err("no report");
+        report.schema = 1;
+        report.rows = vec![Row::new("normal_decode", "unorm", RENAMED[0].0)];
+        assert_eq!(Report::from_json(&report.to_json()).expect("a report").rows[0].domain, RENAMED[0].1);
     }
 }

@@ -30,8 +30,9 @@ pub(crate) fn help(name: &str) -> &'static str {
 pub(crate) fn explained(name: &str) -> &'static str {
     match name {
         "picture" => {
-            "Every example, drawn small. `gpu` and `cpu` draw its specialised shader: every number of the material is known when the \
-             shader is made. They are held against the reference; where its noise could be all of the difference the \
+            "The project's examples, drawn small; those that could not be drawn are named at the head of the page. `gpu` and `cpu` draw an \
+             example's specialised shader: every number of the material is known when the \
+             shader is made. They are held against the reference, which leaves out shadows and light from other surfaces here, because shaders have neither; where its noise could be all of the difference the \
              rms error is not known, and what it is at most is said. The largest error is what is left of the largest \
              difference without four standard errors, and so a bound from below. `gpu, unspecialised` draws the same picture with every \
              number of its surfaces as a uniform, so that every lobe stays in; its error is the difference of the two \
@@ -47,7 +48,9 @@ pub(crate) fn explained(name: &str) -> &'static str {
              and not in this run, for the reason that stands there."
         }
         "split_sum" => {
-            "Prefiltered light times albedo, both exact, against the sum over all light: what no filter can mend."
+            "A shader takes the light that a lobe gathers for two factors: prefiltered light, and the lobe's albedo. Here both are exact, \
+             and held against the sum of light times the lobe over the whole environment: what is left is the error of splitting the sum, \
+             which no filter and no table can mend."
         }
         _ => "",
     }
@@ -73,6 +76,13 @@ pub(crate) fn is_known(name: &str, method: &str) -> bool {
     // On meshes the methods are measured beside what no shader has.
     let word = if name == "normal_frame" || name == "irradiance" { method } else { first };
     listed(name).is_some_and(|term| term.methods.iter().any(|known| known.name == word)) || is_table(name, method)
+}
+
+/// The place of a method in the list of its term's methods; behind all of them where it is in none.
+pub(crate) fn place(name: &str, method: &str) -> usize {
+    let first = method.split([',', ' ']).next().unwrap_or_default();
+    let position = |term: &Term| term.methods.iter().position(|known| known.name == method || known.name == first);
+    listed(name).and_then(position).unwrap_or(usize::MAX)
 }
 
 /// Whether the method is that of the report that started the project.

@@ -35,8 +35,14 @@ pub struct Time {
 
 /// Times each candidate over `rounds` interleaved rounds in all; in a round it runs as often as fills [`ROUND`]. Rounds that
 /// warm up are not counted: one of each sitting, or the very first where a sitting is one round, unless that took long: then it is
-/// the only run of a candidate of one round.
+/// the first sitting's.
 pub fn measured(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<Time> {
+    measured_and_told(candidates, rounds, |_| ())
+}
+
+/// The same; after each round of a candidate, and outside of its time, its number is told.
+pub fn measured_and_told(candidates: &mut [Candidate<'_>], rounds: usize, mut told: impl FnMut(usize)) -> Vec<Time> {
+    let count = candidates.len();
     let sittings = rounds.clamp(1, SITTINGS);
     let each = rounds.div_ceil(sittings);
     let mut yardstick = yardstick;
@@ -47,11 +53,14 @@ pub fn measured(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<Time> {
     let mut only: Vec<Option<f64>> = vec![None; all.len()];
     for sitting in 0..sittings {
         if sitting == 0 {
-            for ((candidate, runs), only) in all.iter_mut().zip(&mut runs).zip(&mut only) {
+            for (number, ((candidate, runs), only)) in all.iter_mut().zip(&mut runs).zip(&mut only).enumerate() {
                 let often = |seconds: f64| (ROUND.as_secs_f64() / seconds.max(1e-9)).clamp(1.0, 1000.0) as u32;
                 // The first run fetches what the others need, and says little of them.
                 let first = seconds_of(*candidate, sitting, 1);
-                *only = (rounds == 1 && first > LONG.as_secs_f64()).then_some(first);
+                *only = (each == 1 && first > LONG.as_secs_f64()).then_some(first);
+                if number < count {
+                    told(number);
+                }
                 *runs = often(first);
                 if *runs > 1 {
                     *runs = often(seconds_of(*candidate, sitting, *runs));
@@ -61,8 +70,15 @@ pub fn measured(candidates: &mut [Candidate<'_>], rounds: usize) -> Vec<Time> {
         let warm_up = usize::from(each > 1);
         let mut seconds = vec![Vec::with_capacity(each); all.len()];
         for round in 0..warm_up + each {
-            for (((candidate, &runs), seconds), only) in all.iter_mut().zip(&runs).zip(&mut seconds).zip(&only) {
-                let time = only.unwrap_or_else(|| seconds_of(*candidate, sitting, runs));
+            let places = all.iter_mut().zip(&runs).zip(&mut seconds).zip(&mut only).enumerate();
+            for (number, (((candidate, &runs), seconds), only)) in places {
+                let time = only.take().unwrap_or_else(|| {
+                    let time = seconds_of(*candidate, sitting, runs);
+                    if number < count {
+                        told(number);
+                    }
+                    time
+                });
                 if round >= warm_up {
                     seconds.push(time);
                 }
@@ -156,6 +172,21 @@ mod tests {
         let times = measured(&mut [&mut long], 1);
         assert!(times[0].seconds > LONG.as_secs_f64() && times[0].spread.is_none());
         assert_eq!(runs, 1);
+    }
+
+    /// Three rounds are enough for a spread; the first run of what takes long is one of them, and each is told.
+    #[test]
+    fn what_takes_long_has_a_spread_after_three_runs() {
+        let mut long = |_| {
+            std::thread::sleep(2 * LONG);
+            0.0
+        };
+        let mut short = |_| 1.0;
+        let mut told = Vec::new();
+        let times = measured_and_told(&mut [&mut long, &mut short], 3, |number| told.push(number));
+        assert!(times[0].spread.is_some() && times[1].spread.is_some());
+        assert_eq!(told.iter().filter(|number| **number == 0).count(), 3, "{told:?}");
+        assert_eq!(told[0], 0);
     }
 
     #[test]

@@ -36,11 +36,12 @@ impl Unit {
             Unit::Relative => "rms error, relative",
             Unit::Degrees => "rms error [degrees]",
             Unit::Ulps => "rms error [ulp]",
-            Unit::Plain => "rms error",
+            Unit::Plain => "rms error, absolute",
         }
     }
 
-    /// The rms error that each budget allows; film asks for the least there is, and counts less than this as nothing.
+    /// The rms error that each budget allows; film asks for the least there is, and counts less than this as nothing. Absolute errors are of
+    /// quantities from 0 to 1, so that a part of them is as large as a part of the most that there can be.
     pub fn limit(self, budget: Budget) -> f64 {
         let [mobile, desktop, film] = match self {
             Unit::Relative | Unit::Plain => [0.1, 0.01, 1e-6],
@@ -69,4 +70,13 @@ pub enum Budget {
 impl Budget {
     /// All, from the smallest.
     pub const ALL: [Budget; 3] = [Budget::Mobile, Budget::Desktop, Budget::Film];
+
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Budget::Mobile => "mobile",
+            Budget::Desktop => "desktop",
+            Budget::Film => "film",
+        }
+    }
 }

@@ -65,6 +65,16 @@ pub fn rms(row: &Row, unit: Unit) -> String {
     }
 }
 
+/// The limits of a budget, for each kind of error.
+pub fn limits(budget: Budget) -> String {
+    format!(
+        "{} % of the truth ({} where it is absolute, {}° for angles)",
+        100.0 * Unit::Relative.limit(budget),
+        Unit::Plain.limit(budget),
+        Unit::Degrees.limit(budget)
+    )
+}
+
 /// A cost with its unit: 3.4 ns, 8,100 bytes.
 pub fn cost(x: f64, kind: Cost) -> String {
     match kind {
@@ -272,7 +282,7 @@ mod tests {
         };
         assert_eq!(found(&of(0.001)), "`good` errs least, 0.10 %, and nothing is much cheaper");
         assert_eq!(found(&of(0.15)), "`good` errs least, 0.10 %, and nothing is cheaper beyond the spread");
-        let rows = [row("least", 0.24, 1.1), row("next", 0.246, 1.05), row("poor", 0.8, 1.04)];
+        let rows = [row("least", 0.24, 2.0), row("next", 0.246, 1.05), row("poor", 0.8, 1.04)];
         assert_eq!(
             found(&rows),
             "`next` errs 25 %, next to the least there is, and nothing is cheaper beyond the spread"

@@ -1,12 +1,12 @@
 //! `halfvector report`: speed against error of every method, measured here and now.
 
+mod again;
 mod kept;
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use halfvector_report::{Effort, PARTS, Part, Report, Row, Run, compare};
+use halfvector_report::{Effort, PARTS, Part, Report, Run, SoFar, compare};
 
 use self::kept::Kept;
 use crate::failure::{FOUND, Failure};
@@ -27,7 +27,7 @@ pub(crate) struct ReportArgs {
     /// Folder for index.html, report.json and the CSV files
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Fewer points and runs: at most two minutes on two cores; --compare may take longer, for it measures again what seems slower
+    /// Fewer points and runs: at most two minutes on two cores, and with --compare about two more, for it measures again what seems slower
     #[arg(long)]
     quick: bool,
     /// Measures this part only; may be given several times
@@ -37,12 +37,6 @@ pub(crate) struct ReportArgs {
     #[arg(long, value_name = "OLD.json")]
     compare: Option<PathBuf>,
 }
-
-/// How often what seems to be slower is measured again before it is told.
-const CONFIRMATIONS: usize = 5;
-
-/// Before it is measured again.
-const CALM: Duration = Duration::from_secs(2);
 
 /// Runs the command.
 pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
@@ -62,6 +56,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     let kept = Kept::begun(&args.output, effort);
     let start = Instant::now();
     let all: f64 = parts.iter().map(|part| part.seconds(effort)).sum();
+    let mut took: Vec<(&Part, f64)> = Vec::new();
     for (done, part) in parts.iter().enumerate() {
         let before: f64 = parts[..done].iter().map(|part| part.seconds(effort)).sum();
         let bar = crate::output::progress(part.name);
@@ -73,12 +68,13 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
             bar.set_message(format!("{}, about {} left", part.name, in_words(pace * (all - foreseen))));
         };
         at(0.0);
-        let run = |rows: &[Row], share: f64| {
-            at(share);
-            kept.part_so_far(part.name, rows);
+        let told = |so_far: SoFar<'_>| {
+            at(so_far.done);
+            kept.part_so_far(part.name, so_far);
         };
-        let run = Run::new(effort, &run);
+        let (run, begun) = (Run::new(effort, &told), Instant::now());
         let rows = (part.rows)(&run);
+        took.push((part, begun.elapsed().as_secs_f64()));
         bar.finish_and_clear();
         note(format_args!("{}: {} rows", part.name, rows.len()));
         let left_out = run.left_out();
@@ -103,21 +99,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
         print(&change.to_string())?;
     }
     // What else the machine does slows one method more than another, in a whole run: a change stays.
-    for _ in 0..CONFIRMATIONS {
-        let doubtful = compare::doubtful(&slower, &report);
-        if doubtful.is_empty() {
-            break;
-        }
-        let mut again = report.clone();
-        for part in parts.iter().filter(|part| doubtful.contains(part.name)) {
-            note(format_args!("{}: measured again, for something seems to be slower", part.name));
-            again.rows.retain(|row| row.part != part.name);
-            // Whatever made the machine slow may be over by then.
-            std::thread::sleep(CALM);
-            again.rows.extend(measured_apart(part, effort)?);
-        }
-        compare::confirm(&mut slower, &compare::changes(&old, &again), &again);
-    }
+    again::confirm(&mut slower, &old, &report, &took, &kept)?;
     compare::settle(&mut slower);
     for change in &slower {
         print(&change.to_string())?;
@@ -138,28 +120,6 @@ fn comparable(old: &Report, path: &Path, parts: &[&Part]) -> Result<(), Failure>
     Err(failure
         .because(format_args!("it holds {its}; measured would be {}", names.join(", ")))
         .try_to("--only a part that both have"))
-}
-
-/// The rows of a part as another process measures them: its code, stack and data lie elsewhere in memory, which changes some
-/// times more than anything that one process sees.
-fn measured_apart(part: &Part, effort: Effort) -> Result<Vec<Row>, Failure> {
-    let failed =
-        |why: &dyn std::fmt::Display| Failure::input(format!("{} could not be measured again", part.name)).because(why);
-    let folder = std::env::temp_dir().join(format!("halfvector-report-again-{}", std::process::id()));
-    let mut command = Command::new(std::env::current_exe().map_err(|error| failed(&error))?);
-    command.args(["report", "--only", part.name, "-o"]).arg(&folder);
-    if effort == Effort::Quick {
-        command.arg("--quick");
-    }
-    let output = command.stdin(Stdio::null()).output().map_err(|error| failed(&error))?;
-    let text = std::fs::read_to_string(folder.join("report.json"));
-    // What is left of a temporary folder does no harm.
-    let _ = std::fs::remove_dir_all(&folder);
-    if !output.status.success() {
-        return Err(failed(&String::from_utf8_lossy(&output.stderr)));
-    }
-    let report = Report::from_json(&text.map_err(|error| failed(&error))?).map_err(|error| failed(&error))?;
-    Ok(report.rows)
 }
 
 /// 40 s, or 2 min 10 s.

@@ -32,6 +32,18 @@ fn of_row(old: &Row, new: &Row) -> Vec<Change> {
             break;
         }
     }
+    if let (None, Some(bound)) = (new.error_rms, new.error_bound)
+        && let Some((known, was)) = match (old.error_rms, old.error_bound) {
+            // What was known is hidden now: it may have grown up to there.
+            (Some(rms), _) => Some((2.0 * rms, format!("was {rms:.3e}"))),
+            (None, Some(before)) => Some((before * (1.0 + ERROR_NOISE), format!("was at most {before:.3e}"))),
+            (None, None) => None,
+        }
+        && bound > known + ERROR_FLOOR
+    {
+        let figures = format!("the noise hides an rms error of at most {bound:.3e}, {was}");
+        changes.push(Change::of("less sure", old, "bound of the error", figures));
+    }
     if let (Some(before), Some(now)) = (old.flip, new.flip)
         && now > before * (1.0 + ERROR_NOISE) + FLIP_FLOOR
     {

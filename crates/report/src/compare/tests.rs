@@ -90,6 +90,22 @@ fn errors_below_noise_are_weighed_by_their_bounds() {
     (new.rows[1].error_rms, new.rows[1].error_bound) = (None, Some(0.4));
     assert_eq!(changes(&old, &new), []);
     assert_eq!(changes(&new, &old), []);
+    // What is less sure than before is told.
+    let hidden = |bound| {
+        let mut report = old.clone();
+        (report.rows[1].error_rms, report.rows[1].error_bound) = (None, Some(bound));
+        report
+    };
+    assert_eq!(whats(&old, &hidden(0.5)), ["less sure"]);
+    assert_eq!(whats(&hidden(0.4), &hidden(0.41)), [""; 0]);
+    let found = changes(&hidden(0.4), &hidden(0.5));
+    assert!(
+        found[0]
+            .to_string()
+            .starts_with("less sure: d b: the noise hides an rms error of at most 5.000e-1, was at most 4.000e-1"),
+        "{}",
+        found[0]
+    );
     new.rows[1].error_bound = Some(0.15);
     assert_eq!(changes(&new, &old).iter().map(|c| c.what).collect::<Vec<_>>(), ["less accurate"]);
 }
@@ -277,6 +293,11 @@ fn what_is_left_out_is_told_with_its_reason() {
     let found = changes(&old, &new);
     assert_eq!(found.len(), 1);
     assert_eq!((found[0].method.as_str(), found[0].figures.ends_with(": no such file")), ("a", true));
+    // One drawer of an example.
+    new.left_out = vec![left(Some("helmet.scene, a"))];
+    assert!(changes(&old, &new)[0].figures.ends_with(": no such file"));
+    new.left_out = vec![left(Some("helmet.scene, b"))];
+    assert!(!changes(&old, &new)[0].figures.ends_with(": no such file"));
 }
 
 /// Peers are compared like all else; what is recorded is not compared, and one that is only recorded now is missed.

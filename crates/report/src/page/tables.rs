@@ -137,8 +137,13 @@ fn plain(rows: &[&Row], page: &mut String) {
     page.push_str("<th>remarks</th></tr></thead><tbody>\n");
     let across = 2 + shown.count();
     for inputs in distinct(rows.iter().map(|row| inputs_of(row))) {
-        let _ = writeln!(page, "<tr class=\"case\"><td colspan=\"{across}\">{}</td></tr>", escaped(inputs));
-        for row in rows.iter().filter(|row| inputs_of(row) == inputs) {
+        let own: Vec<&Row> = rows.iter().copied().filter(|row| inputs_of(row) == inputs).collect();
+        // What all rows of a case are held against stands above them.
+        let against = distinct(own.iter().map(|row| words::against(&row.domain)));
+        let shared = if own.len() > 1 && against.len() == 1 { against[0] } else { "" };
+        let above = [inputs, shared].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; ");
+        let _ = writeln!(page, "<tr class=\"case\"><td colspan=\"{across}\">{}</td></tr>", escaped(&above));
+        for row in own {
             let _ = write!(page, "<tr><td>{}{}</td>", escaped(&row.method), tags(row));
             let error = |x| words::error(x, Unit::of(&row.domain));
             let cells = [
@@ -158,7 +163,10 @@ fn plain(rows: &[&Row], page: &mut String) {
             let failure = row.first_failure.as_deref().map(|at| format!("fails first at {}", words::shortened(at)));
             let note = row.note.clone().unwrap_or_default();
             let recorded = row.recorded.as_deref().map_or(String::new(), |when| format!("recorded on {when}"));
-            let notes = [words::against(&row.domain).to_owned(), failure.unwrap_or_default(), recorded, note];
+            let against = if shared.is_empty() { words::against(&row.domain).to_owned() } else { String::new() };
+            let largest = row.at.as_deref().filter(|_| row.error_max > Some(0.0));
+            let largest = largest.map_or(String::new(), |at| format!("largest at {}", words::shortened(at)));
+            let notes = [against, largest, failure.unwrap_or_default(), recorded, note];
             let notes: Vec<&str> = notes.iter().map(String::as_str).filter(|note| !note.is_empty()).collect();
             let _ = writeln!(page, "<td class=\"small\">{}</td></tr>", escaped(&notes.join("; ")));
         }
@@ -262,7 +270,8 @@ fn peers(rows: &[&Row]) -> Option<String> {
                 rows.iter().skip_while(|row| row.method != *method).skip(1).find(|row| work(row) == work(ours))?;
             let (cost, [a, b]) = costs.iter().find_map(|cost| Some((cost, [cost.of(ours)?, cost.of(other)?])))?;
             let what = if cost.is_time() { "of the time" } else { "of the instructions" };
-            let when = other.recorded.as_ref().map_or(String::new(), |when| format!(" (recorded on {when})"));
+            let when =
+                other.recorded.as_ref().map_or(String::new(), |when| format!(" (not of this run: recorded on {when})"));
             let errors = match (ours.error_rms, other.error_rms) {
                 (Some(a), Some(b)) => {
                     let unit = Unit::of(&ours.domain);
@@ -314,7 +323,10 @@ mod tests {
         assert!(shown(&rows).contains("<code>ours</code> takes 25 % of the time of <code>theirs</code></h3>"));
         rows[1].recorded = Some("2026-11-22, a machine".into());
         let page = shown(&rows);
-        assert!(page.contains("of <code>theirs</code> (recorded on 2026-11-22, a machine)</h3>"), "{page}");
-        assert!(page.contains("<td class=\"small\">now; recorded on 2026-11-22, a machine</td>"), "{page}");
+        assert!(
+            page.contains("of <code>theirs</code> (not of this run: recorded on 2026-11-22, a machine)</h3>"),
+            "{page}"
+        );
+        assert!(page.contains("<td class=\"small\">recorded on 2026-11-22, a machine</td>"), "{page}");
     }
 }

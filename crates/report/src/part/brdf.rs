@@ -1,10 +1,10 @@
 //! Terms of the BRDF: each form in f32 against itself in f64, and against the exact form it stands for. Times of one call
 //! and of an element of a batch with the widest vectors of the machine.
 
-use crate::error::Errors;
+use crate::error::{Errors, named};
 use crate::placed::Columns;
 use crate::timing::{Candidate, SITTINGS, measured};
-use crate::{Effort, Row};
+use crate::{Effort, Row, Run};
 use halfvector_brdf::Real;
 use halfvector_brdf::anisotropic::{d_ggx_anisotropic, v_smith_ggx_anisotropic};
 use halfvector_brdf::batch::kernels::SpecularEval;
@@ -88,6 +88,8 @@ struct Group<const N: usize> {
     term: &'static str,
     /// The points, in words.
     points_are: String,
+    /// What the numbers of a point are: a name, and how many of them it is of.
+    names: &'static [(&'static str, usize)],
     points: Vec<[f32; N]>,
     forms: Vec<Form<N>>,
 }
@@ -147,7 +149,7 @@ impl<const N: usize> Group<N> {
                     let wide = x.map(f64::from);
                     let truth = against.truth.map_or_else(|| (form.exact)(wide), |truth| truth(wide));
                     let error = (f64::from((form.single)(x)) - truth) / truth.abs().max(against.floor);
-                    errors.add(error, || format!("{x:?}"));
+                    errors.add(error, || named(self.names, &x));
                 }
                 let mut row = Row::new(self.term, form.name, &domain);
                 errors.fill(&mut row);
@@ -161,14 +163,11 @@ impl<const N: usize> Group<N> {
 }
 
 /// Measures the part.
-pub fn rows(effort: Effort) -> Vec<Row> {
-    let count = effort.pick(1 << 11, 1 << 14);
-    [d(effort, count), sheen(effort, count), v(effort, count), v_beckmann(effort, count), v_anisotropic(effort, count)]
-        .into_iter()
-        .chain([dielectric(effort, count), conductor(effort, count), thin_film(effort, count)])
-        .chain([diffuse(effort, count), compensation(effort, count), specular(effort, count)])
-        .flatten()
-        .collect()
+pub fn rows(run: &Run<'_>) -> Vec<Row> {
+    const GROUPS: [fn(Effort, usize) -> Vec<Row>; 11] =
+        [d, sheen, v, v_beckmann, v_anisotropic, dielectric, conductor, thin_film, diffuse, compensation, specular];
+    let effort = run.effort();
+    run.pieces(&GROUPS, |group| group(effort, effort.pick(1 << 11, 1 << 14)))
 }
 
 /// Evenly spread points of the unit cube: multiples of irrational numbers. Roberts 2018, The Unreasonable Effectiveness of
@@ -178,6 +177,10 @@ fn spread(count: usize) -> impl Iterator<Item = [f64; 4]> {
         [0.856_674_883_854_502_9, 0.733_891_856_627_126, 0.628_706_721_037_865, 0.538_597_257_223_612];
     (0..count).map(|k| STEPS.map(|step| (0.5 + step * k as f64).fract()))
 }
+
+/// The numbers of [`half_angles`], and of [`cosines`] whose fourth is alpha.
+const HALF_ANGLES: &[(&str, usize)] = &[("n.h", 1), ("1 - n.h^2", 1), ("alpha", 1)];
+const COSINES: &[(&str, usize)] = &[("n.v", 1), ("n.l", 1), ("l.h", 1), ("alpha", 1)];
 
 /// n.h, sin^2 and alpha: half vectors dense about the normal.
 fn half_angles(count: usize) -> Vec<[f32; 3]> {
@@ -203,6 +206,7 @@ fn d(effort: Effort, count: usize) -> Vec<Row> {
     let group = Group {
         term: "d",
         points_are: "half vectors 0..90 deg, dense at the normal, roughness 0.045..1".into(),
+        names: HALF_ANGLES,
         points: half_angles(count),
         forms: vec![
             form!(3, "ggx", [n_dot_h, sin2, alpha] => d_ggx(n_dot_h, sin2, alpha)),
@@ -220,12 +224,14 @@ fn sheen(effort: Effort, count: usize) -> Vec<Row> {
     let d = Group {
         term: "sheen",
         points_are: "D of half vectors 0..90 deg, dense at the normal, roughness 0.045..1".into(),
+        names: HALF_ANGLES,
         points: half_angles(count),
         forms: vec![form!(3, "charlie", [n_dot_h, sin2, alpha] => d_charlie(n_dot_h, sin2, alpha))],
     };
     let albedo = Group {
         term: "sheen",
         points_are: "directional albedo of directions 0..90 deg, dense at the normal, roughness 0.045..1".into(),
+        names: &[("n.v", 1), ("1 - n.v^2", 1), ("alpha", 1)],
         points: half_angles(count),
         forms: vec![form!(3, "charlie", [n_dot_w, _, alpha] => sheen_albedo(n_dot_w, alpha.sqrt()))],
     };
@@ -248,6 +254,7 @@ fn specular(effort: Effort, count: usize) -> Vec<Row> {
         points_are:
             "sum of r, g, b of D V F n.l, f0 0.9, 0.6, 0.3, any two directions above the surface, roughness 0.3..1"
                 .into(),
+        names: &[("view", 3), ("light", 3), ("alpha", 1)],
         points: spread(count).zip(roughness).map(point).collect(),
         forms: vec![
             form!(7, "specular_eval", [vx, vy, vz, lx, ly, lz, alpha] => {
@@ -269,6 +276,7 @@ fn v(effort: Effort, count: usize) -> Vec<Row> {
     let group = Group {
         term: "v",
         points_are: "n.v and n.l logarithmic in 0.01..1, alpha logarithmic in 0.002..1".into(),
+        names: COSINES,
         points: cosines(count, |x| 0.002_f64.powf(x)),
         forms: vec![
             form!(4, "correlated", [v, l, h, alpha] => v_smith_ggx_correlated(v, l, h, alpha)),
@@ -291,6 +299,7 @@ fn v_beckmann(effort: Effort, count: usize) -> Vec<Row> {
     let group = Group {
         term: "v",
         points_are: "n.v and n.l logarithmic in 0.01..1, alpha logarithmic in 0.002..1".into(),
+        names: COSINES,
         points: cosines(count, |x| 0.002_f64.powf(x)),
         forms: vec![
             form!(4, "beckmann_exact", [v, l, h, alpha] => v_smith_beckmann_exact(v, l, h, alpha)),
@@ -308,6 +317,7 @@ fn v_anisotropic(effort: Effort, count: usize) -> Vec<Row> {
         term: "v",
         points_are: "n.v and n.l logarithmic in 0.01..1 in one plane with the tangent, alphas of ratio 4, logarithmic"
             .into(),
+        names: &[("n.v", 1), ("n.l", 1), ("l.h", 1), ("alpha along the tangent", 1)],
         points: cosines(count, |x| 0.002_f64.powf(x)),
         forms: vec![form!(4, "ggx_anisotropic", [v, l, _, alpha] => {
             let along = |cosine: R| [(R::ONE - cosine * cosine).max(R::ZERO).sqrt(), R::ZERO, cosine];
@@ -331,6 +341,7 @@ fn dielectric(effort: Effort, count: usize) -> Vec<Row> {
         let group = Group {
             term: "fresnel",
             points_are: format!("ior {ior}: a dielectric, l.h evenly in 0..1"),
+            names: &[("l.h", 1), ("f0", 1), ("ior", 1)],
             points: incidences(count).into_iter().map(|[c]| [c, f0 as f32, ior as f32]).collect(),
             forms: vec![
                 form!(3, "schlick", [c, f0, _] => f_schlick([f0; 3], [R::ONE; 3], c)[0]),
@@ -356,6 +367,7 @@ fn conductor(effort: Effort, count: usize) -> Vec<Row> {
         let group = Group {
             term: "fresnel",
             points_are: format!("{metal}, {eta} + {k} i: a metal in the green, l.h evenly in 0..1"),
+            names: &[("l.h", 1), ("f0", 1), ("tint", 1), ("eta", 1), ("k", 1)],
             points: incidences(count)
                 .into_iter()
                 .map(|[c]| [c, f0 as f32, tint as f32, eta as f32, k as f32])
@@ -383,6 +395,7 @@ fn thin_film(effort: Effort, count: usize) -> Vec<Row> {
     let group = Group {
         term: "fresnel",
         points_are: "film of index 1.4 and 450 nm on glass, l.h evenly in 0..1, red".into(),
+        names: &[("l.h", 1)],
         points: incidences(count),
         forms: vec![form!(1, "thin_film", [c] => {
             let [film, thickness, base] = FILM.map(R::of);
@@ -396,6 +409,7 @@ fn diffuse(effort: Effort, count: usize) -> Vec<Row> {
     let group = Group {
         term: "diffuse",
         points_are: "albedo 0.8, n.v and n.l logarithmic in 0.01..1, roughness evenly in 0..1".into(),
+        names: &[("n.v", 1), ("n.l", 1), ("l.h", 1), ("roughness", 1)],
         points: cosines(count, |x| x),
         forms: vec![
             form!(4, "lambert", [v, l, h, r] => diffuse_lambert([R::of(0.8); 3], v, l, h, r)[0]),
@@ -416,6 +430,7 @@ fn compensation(effort: Effort, count: usize) -> Vec<Row> {
     let group = Group {
         term: "compensation",
         points_are: "f0 evenly in 0..1, single-scattering albedo of white evenly in 0.4..1".into(),
+        names: &[("f0", 1), ("albedo", 1)],
         points: spread(count).map(|[f0, albedo, ..]| [f0 as f32, (0.4 + 0.6 * albedo) as f32]).collect(),
         forms: vec![
             form!(2, "turquin", [f0, albedo] => energy_compensation([f0; 3], [R::ONE; 3], [albedo, R::ZERO])[0]),
@@ -436,7 +451,7 @@ mod tests {
     /// differ from it as their documentation says.
     #[test]
     fn rows_are_whole_and_the_errors_as_documented() {
-        let rows = rows(Effort::Quick);
+        let rows = rows(&Run::alone(Effort::Quick));
         let names: HashSet<_> = rows.iter().map(|row| (&row.term, &row.method, &row.domain)).collect();
         assert_eq!(names.len(), rows.len());
         for row in &rows {

@@ -36,7 +36,9 @@ pub(super) fn rows(_: Effort) -> Vec<Row> {
                 let truth = (1.0 - albedo(n_dot_v)) * (1.0 - albedo(n_dot_l)) / (1.0 - average);
                 let light = coupling_light(F0, 1.0, directional_albedo_ggx(n_dot_l, roughness), roughness);
                 for (errors, found) in errors.iter_mut().zip([view, view * light, 1.0]) {
-                    errors.add(found / truth - 1.0, || format!("n.v {n_dot_v}, n.l {n_dot_l}, roughness {roughness}"));
+                    errors.add(found / truth - 1.0, || {
+                        format!("n.v = {n_dot_v}, n.l = {n_dot_l}, roughness = {roughness}")
+                    });
                 }
             }
         }

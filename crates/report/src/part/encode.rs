@@ -31,7 +31,7 @@ pub(super) fn rows(effort: Effort) -> Vec<Row> {
         for &[reflection, albedo] in &points {
             let truth = srgb_from_linear([reflection * albedo; 3])[0];
             let found = f64::from(written(reflection as f32, albedo as f32));
-            errors.add(found - truth, || format!("reflection {reflection:.3}, albedo {albedo:.3}"));
+            errors.add(found - truth, || format!("reflection = {reflection:.3}, albedo = {albedo:.3}"));
         }
         let mut row = Row::new("encode", name, DOMAIN);
         errors.fill(&mut row);

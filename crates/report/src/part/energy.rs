@@ -10,7 +10,7 @@ use halfvector_ibl::{DFG_SIZE, dfg_table};
 use super::{coupling, multiple};
 use crate::error::Errors;
 use crate::timing::{self, Candidate};
-use crate::{Effort, Row};
+use crate::{Effort, Row, Run};
 
 const INNER: &str = "n.v >= 0.05, roughness >= 0.089; absolute error, that of a + b or of b, against quadrature";
 const WIDE: &str = "n.v >= 0.001, roughness >= 0.02; absolute error, that of a + b or of b, against quadrature";
@@ -43,7 +43,13 @@ const LAYOUTS: &[Layout] = &[
 type Form<'a> = &'a dyn Fn(f32, f32) -> [f32; 2];
 
 /// Measures the part.
-pub fn rows(effort: Effort) -> Vec<Row> {
+pub fn rows(run: &Run<'_>) -> Vec<Row> {
+    const PIECES: [fn(Effort) -> Vec<Row>; 3] = [pairs, multiple::rows, coupling::rows];
+    run.pieces(&PIECES, |piece| piece(run.effort()))
+}
+
+/// Tables of the pair and what stands for them.
+fn pairs(effort: Effort) -> Vec<Row> {
     let points = truth(effort.pick(24, 64));
     let mut rows = Vec::new();
     for layout in LAYOUTS {
@@ -82,8 +88,6 @@ pub fn rows(effort: Effort) -> Vec<Row> {
             row.bytes = *bytes;
         }));
     }
-    rows.extend(multiple::rows(effort));
-    rows.extend(coupling::rows(effort));
     rows
 }
 

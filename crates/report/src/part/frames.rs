@@ -168,7 +168,7 @@ impl Shape {
                 for (errors, n) in errors.iter_mut().zip(found) {
                     let apart = (0..3).map(|i| (n[i] - truth[i]).powi(2)).sum::<f64>().sqrt();
                     let angle = 2.0 * (0.5 * apart).min(1.0).asin().to_degrees();
-                    errors.add(angle, || format!("parameters {place:.3?}, azimuth {:.0} deg", azimuth.to_degrees()));
+                    errors.add(angle, || format!("place = {place:.3?}, azimuth = {:.0} deg", azimuth.to_degrees()));
                 }
             }
             let domain = format!(

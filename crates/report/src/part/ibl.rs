@@ -1,12 +1,12 @@
 //! Light of environments: levels, what is seen between them, diffuse light, the split sum's own error; on the two environments of our own, against
 //! sums over every texel.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::collections::HashMap;
 
 use super::split_sum;
 use crate::error::Errors;
-use crate::timing::{Candidate, measured};
+use crate::timing::{Candidate, measured, measured_and_told};
 use crate::{Effort, Row, Run};
 use halfvector_ibl::environment::{
     environment_sample, environment_sample_hermite, irradiance_sh2, lod_geometric, lod_linear, lod_report,
@@ -39,7 +39,8 @@ fn under(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment,
     let effort = run.effort();
     let Source::Equirect(map) = &environment.source else { return };
     let truth = Quadrature::new(map);
-    rows.extend(levels(run, first, name, environment, &truth));
+    let own = levels(run, first, name, environment, &truth, rows);
+    rows.extend(own);
     run.keep(rows, first + 0.35);
     // The largest bakes are made once for all that read them.
     let baked = |level_map| bake(environment, &BakeOptions { level_map, ..BakeOptions::default() });
@@ -60,14 +61,22 @@ pub(super) fn add(errors: &mut Errors, value: [f32; 3], truth: [f64; 3], mean: [
     }
 }
 
+/// What stands beside a row that is judged and not timed yet.
+pub(crate) const NOT_TIMED: &str = "it was not timed: the run was interrupted before";
+
 /// The levels at random texel centres, by filter, quality and size. Cost is the time of a whole bake on all cores, irradiance
-/// and harmonics included, shared out among the texels of its levels.
-fn levels(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment, truth: &Quadrature) -> Vec<Row> {
+/// and harmonics included, shared out among the texels of its levels. Each bake is judged as soon as it is made once, and kept behind the
+/// rows of `before`.
+fn levels(
+    run: &Run<'_>,
+    first: f64,
+    name: &str,
+    environment: &LoadedEnvironment,
+    truth: &Quadrature,
+    before: &[Row],
+) -> Vec<Row> {
     let effort = run.effort();
-    let rounds = effort.pick(1, 5);
-    // Each is made once to warm up, too, where it is made more than once.
-    let bakes = Cell::new(0);
-    let count = 8 * if rounds > 1 { rounds + 1 } else { 1 };
+    let rounds = effort.pick(3, 5);
     let cases: Vec<(&str, BakeOptions)> = [
         ("ggx preview", Quality::Preview, 128, Prefilter::Ggx),
         ("ggx preview", Quality::Preview, 256, Prefilter::Ggx),
@@ -85,7 +94,7 @@ fn levels(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment
         (method, options)
     })
     .collect();
-    // What was timed is what is judged: a bake takes too long to be made twice.
+    // What is timed is what is judged: a bake takes too long to be made once more.
     let made: Vec<RefCell<Option<BakedEnvironment>>> = cases.iter().map(|_| RefCell::default()).collect();
     let mut runs: Vec<_> = cases
         .iter()
@@ -93,8 +102,6 @@ fn levels(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment
         .map(|((_, options), made)| {
             |_| {
                 let baked = bake(environment, options);
-                bakes.set(bakes.get() + 1);
-                run.at(first + 0.3 * (bakes.get() as f64 / count as f64).min(1.0));
                 let read = f64::from(baked.irradiance_sh[0][0]);
                 made.replace(Some(baked));
                 read
@@ -102,43 +109,65 @@ fn levels(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment
         })
         .collect();
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
-    let times = measured(&mut candidates, rounds);
-    // Places of bakes of the same levels are the same.
-    let mut known: HashMap<Vec<(usize, u32)>, Vec<[f64; 3]>> = HashMap::new();
-    cases
-        .iter()
-        .zip(times)
-        .zip(&made)
-        .filter_map(|((case, time), made)| Some((case, time, made.take()?)))
-        .map(|((method, options), time, baked)| {
-            let mut errors = Errors::default();
-            let places: Vec<(usize, [f64; 3])> = (0..effort.pick(24, 400))
-                .map(|k| (1 + k % (baked.radiance.len() - 1), k))
-                .filter(|&(level, _)| f64::from(baked.roughness[level]) >= 0.19)
-                .map(|(level, k)| (level, texel_centre(baked.radiance[level].size, k)))
-                .collect();
-            let levels =
-                baked.radiance.iter().zip(&baked.roughness).map(|(cube, r)| (cube.size, r.to_bits())).collect();
-            let expected = known.entry(levels).or_insert_with(|| {
-                let at = |&(level, dir): &(usize, [f64; 3])| truth.prefiltered(dir, f64::from(baked.roughness[level]));
-                places.par_iter().map(at).collect()
-            });
-            for (&(level, dir), &expected) in places.iter().zip(&*expected) {
-                let at = || format!("{} {dir:?}", baked.roughness[level]);
-                add(&mut errors, baked.radiance[level].sample(dir), expected, truth.mean(), at);
-            }
-            let texels: usize = baked.radiance.iter().map(|cube| cube.texels.len()).sum();
-            let domain = format!(
-                "{name}, {} px: levels of roughness >= 0.2 at texel centres; relative error against a sum over texels",
-                options.size
-            );
-            let mut row = Row::new("prefilter", method, &domain);
-            errors.fill(&mut row);
-            row.take_batch_time(time, texels);
-            row.bytes = Some(8 * texels as u64);
-            row
-        })
-        .collect()
+    let mut judged = Judged { name, effort, truth, known: HashMap::new() };
+    let mut rows: Vec<Row> = Vec::new();
+    let mut bakes = 0;
+    let times = measured_and_told(&mut candidates, rounds, |number| {
+        bakes += 1;
+        let share = first + 0.3 * (f64::from(bakes) / (rounds * cases.len()) as f64).min(1.0);
+        let Some(baked) = made[number].take().filter(|_| number == rows.len()) else { return run.at(share) };
+        let (method, options) = &cases[number];
+        rows.push(Row { note: Some(NOT_TIMED.to_owned()), ..judged.row(method, options.size, &baked) });
+        run.keep(&[before, &rows].concat(), share);
+    });
+    for (row, time) in rows.iter_mut().zip(times) {
+        let texels = row.bytes.unwrap_or_default() / TEXEL;
+        row.take_batch_time(time, texels as usize);
+        row.note = None;
+    }
+    rows
+}
+
+/// Bytes of a texel: four numbers of 16 bits.
+const TEXEL: u64 = 8;
+
+/// What bakes of an environment are held against.
+struct Judged<'a> {
+    name: &'a str,
+    effort: Effort,
+    truth: &'a Quadrature,
+    /// Places of bakes of the same levels are the same.
+    known: HashMap<Vec<(usize, u32)>, Vec<[f64; 3]>>,
+}
+
+impl Judged<'_> {
+    /// The row of a bake, without its time.
+    fn row(&mut self, method: &str, size: usize, baked: &BakedEnvironment) -> Row {
+        let mut errors = Errors::default();
+        let places: Vec<(usize, [f64; 3])> = (0..self.effort.pick(24, 400))
+            .map(|k| (1 + k % (baked.radiance.len() - 1), k))
+            .filter(|&(level, _)| f64::from(baked.roughness[level]) >= 0.19)
+            .map(|(level, k)| (level, texel_centre(baked.radiance[level].size, k)))
+            .collect();
+        let levels = baked.radiance.iter().zip(&baked.roughness).map(|(cube, r)| (cube.size, r.to_bits())).collect();
+        let truth = self.truth;
+        let expected = self.known.entry(levels).or_insert_with(|| {
+            let at = |&(level, dir): &(usize, [f64; 3])| truth.prefiltered(dir, f64::from(baked.roughness[level]));
+            places.par_iter().map(at).collect()
+        });
+        for (&(level, dir), &expected) in places.iter().zip(&*expected) {
+            let at = || format!("roughness = {:?}, direction = {dir:?}", baked.roughness[level]);
+            add(&mut errors, baked.radiance[level].sample(dir), expected, truth.mean(), at);
+        }
+        let domain = format!(
+            "{}, {size} px: levels of roughness >= 0.2 at texel centres; relative error against a sum over texels",
+            self.name
+        );
+        let mut row = Row::new("prefilter", method, &domain);
+        errors.fill(&mut row);
+        row.bytes = Some(baked.radiance.iter().map(|cube| TEXEL * cube.texels.len() as u64).sum());
+        row
+    }
 }
 
 /// The k-th of evenly spread texel centres of a cube, as a unit direction.
@@ -203,7 +232,7 @@ fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 3], truth: &Quadra
         .map(|((method, baked, read), time)| {
             let mut errors = Errors::default();
             for (&(dir, roughness), &expected) in points.iter().zip(&expected) {
-                let at = || format!("roughness {roughness:.3}, {dir:.3?}");
+                let at = || format!("roughness = {roughness:.3}, direction = {dir:.3?}");
                 add(&mut errors, read(dir, roughness), expected, truth.mean(), at);
             }
             let mut row = Row::new("level_map", method, &domain);
@@ -251,7 +280,7 @@ fn diffuse(
         .map(|((method, bytes, read), time)| {
             let mut errors = Errors::default();
             for (&dir, &expected) in points.iter().zip(&expected) {
-                add(&mut errors, read(dir), expected, truth.mean(), || format!("{dir:.3?}"));
+                add(&mut errors, read(dir), expected, truth.mean(), || format!("direction = {dir:.3?}"));
             }
             let mut row = Row::new("irradiance", method, &domain);
             errors.fill(&mut row);

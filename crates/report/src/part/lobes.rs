@@ -203,7 +203,7 @@ fn split_sum(frame: Frame<f64>, roughness: f64) -> [f64; 2] {
 }
 
 fn say(frame: Frame<f64>, roughness: f64) -> String {
-    format!("n.v {:.2}, roughness {roughness}, normal {:.3?}", frame.n_dot_v, frame.normal)
+    format!("n.v = {:.2}, roughness = {roughness}, normal = {:.3?}", frame.n_dot_v, frame.normal)
 }
 
 /// The base's own reflection: beside it stand the lobes that are looked up in the same way.
@@ -213,7 +213,7 @@ fn specular(light: &Light, count: usize) -> Vec<Row> {
             let (lobe, pair) = (Specular { f0, f90: [1.0; 3], alpha: r * r }, split_sum(frame, r));
             let value = |dir| specular_environment(lobe, light.radiance(dir, r), pair);
             Case {
-                at: format!("{}, f0 {f0:?}", say(frame, r)),
+                at: format!("{}, f0 = {f0:?}", say(frame, r)),
                 truth: light.integral(|l| specular_eval(frame, l, lobe)),
                 values: [value(leaning(frame, r)), value(mirror(frame))],
             }
@@ -276,7 +276,7 @@ fn anisotropy(light: &Light, count: usize) -> Vec<Row> {
                 .radiance(specular_direction(frame, anisotropic_reflection(frame, aside, strength, r), width), width);
             let round = light.radiance(leaning(frame, width), width);
             Case {
-                at: format!("{}, anisotropy {strength}", say(frame, r)),
+                at: format!("{}, anisotropy = {strength}", say(frame, r)),
                 truth: light.integral(|l| anisotropic_eval(frame, l, lobe)),
                 values: [strips, bent, round].map(|radiance| anisotropic_environment(lobe, radiance, pair)),
             }
@@ -297,7 +297,7 @@ fn transmission(light: &Light, count: usize) -> Vec<Row> {
             let gain = transmission_compensation(frame.n_dot_v, lobe);
             let value = |dir, roughness| transmission_environment(lobe, f0, light.radiance(dir, roughness), pair);
             Case {
-                at: format!("{}, ior {eta}", say(frame, r)),
+                at: format!("{}, ior = {eta}", say(frame, r)),
                 // The lookup leaves out that radiance is compressed in the body.
                 truth: light.integral(|l| transmission_eval(frame, l, lobe).map(|x| x * gain * eta * eta)),
                 values: [value(lookup.dir, lookup.perceptual_roughness), value(smooth, r)],
@@ -341,7 +341,7 @@ fn thin_film(light: &Light, count: usize) -> Vec<Row> {
             let grazing = f_schlick([0.0; 3], [1.0; 3], frame.n_dot_v)[0];
             let f0_seen = seen.map(|f| ((f - grazing) / (1.0 - grazing)).clamp(0.0, 1.0));
             Case {
-                at: format!("{}, film {thickness} nm of {ior}", say(frame, r)),
+                at: format!("{}, film = {thickness} nm, film's ior = {ior}", say(frame, r)),
                 truth,
                 values: [value(mean, mean), value(seen, seen), value(f0_seen, f90)],
             }
@@ -366,7 +366,7 @@ fn occlusion(light: &Light, count: usize) -> Vec<Row> {
                 1.0,
             ];
             Case {
-                at: format!("{}, occlusion {open}", say(frame, r)),
+                at: format!("{}, occlusion = {open}", say(frame, r)),
                 truth: light.integral(inside),
                 values: parts.map(|part| whole.map(|x| x * part)),
             }
@@ -389,7 +389,7 @@ fn horizon(light: &Light, count: usize) -> Vec<Row> {
             let parts =
                 [horizon_cone(r_dot_g, cos, frame.n_dot_v, r), horizon_squared(r_dot_g, cos, frame.n_dot_v, r), 1.0];
             Case {
-                at: format!("{}, tilt {tilt}", say(frame, r)),
+                at: format!("{}, tilt = {tilt} deg", say(frame, r)),
                 truth: light.integral(above),
                 values: parts.map(|part| whole.map(|x| x * part)),
             }
@@ -419,7 +419,7 @@ mod tests {
 
     #[test]
     fn lobes_are_near_their_integrals() {
-        let rows = rows(&Run::new(Effort::Quick, &|_, _| ()));
+        let rows = rows(&Run::alone(Effort::Quick));
         for row in &rows {
             let (rms, max) = (row.error_rms.expect("measured"), row.error_max.expect("measured"));
             let place = if row.domain.contains("studio") { "studio" } else { "sky" };

@@ -8,7 +8,7 @@ use halfvector_maps::derivative::{normal_from_slopes, normal_tbn_derivative};
 use halfvector_maps::normal::{normal_rotation_fixed, normal_rotation_report, normal_tbn};
 
 use super::{encode, frames, texels};
-use crate::error::Errors;
+use crate::error::{Errors, named};
 use crate::placed::Columns;
 use crate::timing::{Candidate, SITTINGS, Time, measured};
 use crate::{Effort, Row};
@@ -17,13 +17,9 @@ use crate::{Effort, Row};
 const ANGLES: &str = include_str!("../../data/normal_angle.csv");
 
 /// Measures the part.
-pub fn rows(effort: Effort) -> Vec<Row> {
-    let mut rows = methods(effort);
-    rows.extend(frames::rows(effort));
-    rows.extend(blends(effort));
-    rows.extend(texels::rows(effort));
-    rows.extend(encode::rows(effort));
-    rows
+pub fn rows(run: &crate::Run<'_>) -> Vec<Row> {
+    const PIECES: [fn(Effort) -> Vec<Row>; 5] = [methods, frames::rows, blends, texels::rows, encode::rows];
+    run.pieces(&PIECES, |piece| piece(run.effort()))
 }
 
 /// Numbers in -1..1 that come out the same on every run.
@@ -124,7 +120,7 @@ fn methods(effort: Effort) -> Vec<Row> {
         }
         let Some(row) = rows.last_mut() else { continue };
         if row.error_max.is_none_or(|known| number(max) > known) {
-            (row.error_max, row.at) = (Some(number(max)), Some(format!("tilt {tilt} deg")));
+            (row.error_max, row.at) = (Some(number(max)), Some(format!("tilt = {tilt} deg")));
         }
         let squares = row.error_rms.map_or(0.0, |rms| rms * rms * tilts);
         tilts += 1.0;
@@ -168,7 +164,9 @@ fn blends(effort: Effort) -> Vec<Row> {
                 let truth = normal_from_slopes(slopes[0] + slopes[2], slopes[1] + slopes[3]);
                 let n = blend(base, detail).map(f64::from);
                 let difference = (0..3).map(|k| (n[k] - truth[k]).powi(2)).sum::<f64>().sqrt();
-                errors.add(2.0 * (0.5 * difference).min(1.0).asin().to_degrees(), || format!("slopes {slopes:?}"));
+                errors.add(2.0 * (0.5 * difference).min(1.0).asin().to_degrees(), || {
+                    named(&[("base slopes", 2), ("detail slopes", 2)], &slopes)
+                });
             }
             let mut row = Row::new("normal_blend", name, DOMAIN);
             errors.fill(&mut row);

@@ -3,7 +3,7 @@
 
 use crate::error::Errors;
 use crate::timing::{Candidate, Time, measured};
-use crate::{Effort, Row};
+use crate::{Row, Run};
 use halfvector_maps::lost_length::{Rule, Spread, lobe_error};
 
 /// Texels along the side of a footprint: three levels.
@@ -13,7 +13,8 @@ const SIDE: usize = 8;
 type Method = (&'static str, Box<dyn Fn(f64, Spread) -> f64>);
 
 /// Measures the part.
-pub fn rows(effort: Effort) -> Vec<Row> {
+pub fn rows(run: &Run<'_>) -> Vec<Row> {
+    let effort = run.effort();
     const DOMAIN: &str = "footprints of 8 x 8 normals (noise, waves, pyramids; slopes 0.05..0.5), roughness 0.3, 0.5, 0.7; \
                           half the integral of |one lobe - mean of the fine lobes|, 0..1";
     let methods: Vec<Method> =
@@ -37,7 +38,7 @@ pub fn rows(effort: Effort) -> Vec<Row> {
             for roughness in [0.3_f64, 0.5, 0.7] {
                 let alpha = roughness * roughness;
                 let error = lobe_error(normals, alpha, rule(alpha, Spread::of(normals)), cells);
-                errors.add(error, || format!("{surface}, roughness {roughness}"));
+                errors.add(error, || format!("surface = {surface}, roughness = {roughness}"));
             }
         }
         let mut row = Row::new("normal_mips", name, DOMAIN);
@@ -45,7 +46,8 @@ pub fn rows(effort: Effort) -> Vec<Row> {
         row.take_time(time, 256);
         row
     };
-    methods.iter().zip(times).map(row).collect()
+    let timed: Vec<(&Method, Time)> = methods.iter().zip(times).collect();
+    run.pieces(&timed, |&method| vec![row(method)])
 }
 
 /// Footprints of made surfaces, by name.
@@ -85,7 +87,7 @@ mod tests {
     /// Every rule is better than leaving the roughness as it is, and the default has the least error.
     #[test]
     fn the_default_is_the_best() {
-        let rows = rows(Effort::Quick);
+        let rows = rows(&Run::alone(crate::Effort::Quick));
         let error = |method: &str| rows.iter().find(|row| row.method == method).and_then(|row| row.error_rms);
         let default = error(Rule::default().name());
         assert!(rows.iter().all(|row| row.error_rms >= default), "{rows:?}");

@@ -44,7 +44,7 @@ pub(super) fn rows(effort: Effort) -> Vec<Row> {
             let (pair, average) = (directional_albedo_ggx(n_dot_v, roughness), 1.0 - average_loss_ggx(roughness));
             for (f0, truth) in F0.into_iter().zip(truth) {
                 for ((_, reflects), errors) in methods.iter().zip(&mut errors) {
-                    let at = || format!("n.v {n_dot_v}, roughness {roughness}, f0 {f0}");
+                    let at = || format!("n.v = {n_dot_v}, roughness = {roughness}, f0 = {f0}");
                     errors.add((reflects(f0, pair, average) - truth) / truth, at);
                 }
             }

@@ -62,8 +62,9 @@ pub fn rows_of(examples: &[PathBuf], run: &Run<'_>) -> Vec<Row> {
     let done = AtomicUsize::new(0);
     let one_done = || (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / (2 * examples.len()) as f64;
     let mut rows = Vec::new();
-    // As many at a time as keep every core busy, so that what is finished by then can be kept.
-    for some in examples.chunks(3 * stations.len()) {
+    // As many at a time as keep every core busy, so that what is finished by then can be kept; the first ones soon.
+    let (soon, later) = examples.split_at(stations.len().min(examples.len()));
+    for some in std::iter::once(soon).chain(later.chunks(3 * stations.len())) {
         let prepared = shared(&stations, some, |station, path| {
             let example = Example::prepared(path, station, &kept, run.effort());
             run.at(one_done());
@@ -72,7 +73,7 @@ pub fn rows_of(examples: &[PathBuf], run: &Run<'_>) -> Vec<Row> {
         for (path, (station, example)) in some.iter().zip(prepared) {
             let station = stations[station].as_ref();
             match example {
-                Ok(example) => rows.extend(example.rows(station, run.effort())),
+                Ok(example) => rows.extend(example.rows(station, run)),
                 Err(why) => run.leave_out(PART, Some(&name(path)), why),
             }
             run.keep(&rows, one_done());
@@ -150,42 +151,44 @@ impl Kept {
     }
 }
 
-/// A scene as one row draws it, and the first picture of it on the device.
+/// A scene as one row draws it, and the first picture of it on the device, or why there is none; neither where there is no device.
 struct View {
     scene: Scene,
     baked: Option<Arc<BakedEnvironment>>,
-    picture: Option<Picture>,
+    picture: Option<Result<Picture, String>>,
 }
 
 impl View {
     fn new(scene: Scene, kept: &Kept, station: Option<&Station>, size: u32) -> View {
         // Without a device nothing is drawn of it.
         let baked = station.and_then(|_| kept.baked(&scene));
-        let drawn = station.and_then(|station| station.draw(&scene, baked.as_ref(), &options(size)));
-        View { scene, baked, picture: drawn.map(|(picture, _)| picture) }
+        let drawn = station.map(|station| station.draw(&scene, baked.as_ref(), &options(size)));
+        View { scene, baked, picture: drawn.map(|drawn| drawn.map(|(picture, _)| picture)) }
     }
+}
 
-    /// Draws on the device and puts time and instructions into the row: the fastest of several pictures without what is made
-    /// only once, and how much longer the one in the middle took.
-    fn time(&self, station: &Station, size: u32, effort: Effort, row: &mut Row) -> Option<()> {
-        let (mut seconds, mut device): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-        for _ in 0..effort.pick(3, 9) {
-            let start = Instant::now();
-            let (_, time) = station.draw(&self.scene, self.baked.as_ref(), &options(size))?;
-            seconds.push(start.elapsed().as_secs_f64());
-            device.extend(time);
+/// Times of a picture [s]: of all that is waited for, and of the device.
+#[derive(Default)]
+struct Times {
+    seconds: Vec<f64>,
+    device: Vec<f64>,
+}
+
+impl Times {
+    /// Puts the fastest picture's times into the row, and how much longer the one in the middle took.
+    fn fill(self, size: u32, row: &mut Row) {
+        let fastest = |times: &[f64]| {
+            let least = times.iter().copied().fold(f64::INFINITY, f64::min);
+            (least.is_finite() && least > 0.0).then_some(least)
+        };
+        let spread = |times: Vec<f64>, least: f64| (times.len() > 2).then(|| median(times) / least - 1.0);
+        if let Some(least) = fastest(&self.seconds) {
+            (row.cost_ns, row.cost_spread) = (Some(least * 1e9), spread(self.seconds, least));
         }
-        let least = |times: &[f64]| times.iter().copied().fold(f64::INFINITY, f64::min);
-        let (fastest, shortest) = (least(&seconds), least(&device));
-        row.cost_ns = Some(fastest * 1e9);
-        row.cost_spread = Some(median(seconds) / fastest - 1.0);
-        if shortest.is_finite() && shortest > 0.0 {
-            row.gpu_ns = Some(shortest * 1e9 / f64::from(size * size * SAMPLES * SAMPLES));
-            row.gpu_spread = Some(median(device) / shortest - 1.0);
+        if let Some(least) = fastest(&self.device) {
+            row.gpu_ns = Some(least * 1e9 / f64::from(size * size * SAMPLES * SAMPLES));
+            row.gpu_spread = spread(self.device, least);
         }
-        row.gpu = Some(station.name().to_owned());
-        row.instructions = fragment_instructions(&self.scene);
-        Some(())
     }
 }
 
@@ -255,6 +258,7 @@ impl Example {
         // What the reference has no truth for.
         linear(&mut scene.methods)?;
         let size = effort.pick(32, 128) as u32;
+        // Shaders have no shadows.
         let options = ReferenceOptions { width: size, height: size, shadows: false, ..ReferenceOptions::default() };
         let loaded = kept.loaded(&scene)?;
         let no_truth = |error: ReferenceError| format!("the reference cannot draw it: {error}");
@@ -288,41 +292,85 @@ impl Example {
         Row::new("picture", method, &domain)
     }
 
-    /// Draws the example again and again, and holds the pictures against the truth and each other.
-    fn rows(&self, station: Option<&Station>, effort: Effort) -> Vec<Row> {
-        let size = self.size;
-        let mut rows = Vec::new();
+    /// Draws the example again and again, each view and the processor in turns, and holds the pictures against the truth and each other.
+    fn rows(&self, station: Option<&Station>, run: &Run<'_>) -> Vec<Row> {
         let against = "the reference";
         let noise = Some(self.noise.as_slice());
-        let mut timed = |view: &View, mut row: Row, truth: &[[f64; 3]], noise: Option<&[[f64; 3]]>| {
-            let (Some(station), Some(picture)) = (station, &view.picture) else { return };
-            fill(&mut row, &radiance(picture), truth, noise);
-            if view.time(station, size, effort, &mut row).is_some() {
+        let drawn = |view: &View| match &view.picture {
+            Some(Ok(picture)) => radiance(picture),
+            _ => Vec::new(),
+        };
+        let what = ", every number that its surfaces take a uniform";
+        let unspecialised = self.row("gpu, unspecialised", what, "the specialised shader's picture");
+        let preset = self.row("preset report", "", "the picture with the default methods");
+        let default = drawn(self.defaults.as_ref().unwrap_or(&self.specialised));
+        let specialised = drawn(&self.specialised);
+        let views: [(&View, Row, &[[f64; 3]], Option<&[[f64; 3]]>); 3] = [
+            (&self.specialised, self.row("gpu", "", against), &self.truth, noise),
+            (&self.unspecialised, unspecialised, &specialised, None),
+            (&self.report, preset, &default, None),
+        ];
+        let mut shown = Vec::new();
+        for (view, row, truth, noise) in views {
+            match &view.picture {
+                Some(Ok(picture)) if truth.len() == picture.pixels.len() => {
+                    shown.push((view, row, radiance(picture), truth, noise, Times::default()));
+                }
+                Some(Ok(_)) => self.leave_out(run, &row.method, "what it is held against could not be drawn"),
+                Some(Err(why)) => self.leave_out(run, &row.method, why),
+                None => {}
+            }
+        }
+        let (mut by_cpu, mut cpu) = (Times::default(), None);
+        let (on_device, on_cpu) = (run.effort().pick(3, 9), run.effort().pick(3, 5));
+        for round in 0..on_device.max(on_cpu) {
+            for (view, .., times) in shown.iter_mut().filter(|_| round < on_device) {
+                let start = Instant::now();
+                let pass = station.map(|station| station.draw(&view.scene, view.baked.as_ref(), &options(self.size)));
+                if let Some(Ok((_, device))) = pass {
+                    times.seconds.push(start.elapsed().as_secs_f64());
+                    times.device.extend(device);
+                }
+            }
+            if round < on_cpu && !matches!(cpu, Some(Err(_))) {
+                let start = Instant::now();
+                let picture = self.on_cpu();
+                by_cpu.seconds.push(start.elapsed().as_secs_f64());
+                cpu = Some(picture);
+            }
+        }
+        let mut rows = Vec::new();
+        for (view, mut row, picture, truth, noise, times) in shown {
+            fill(&mut row, &picture, truth, noise);
+            times.fill(self.size, &mut row);
+            row.gpu = station.map(|station| station.name().to_owned());
+            row.instructions = fragment_instructions(&view.scene);
+            rows.push(row);
+        }
+        match cpu {
+            Some(Ok(picture)) => {
+                let mut row = self.row("cpu", "", against);
+                by_cpu.fill(self.size, &mut row);
+                row.instructions = fragment_instructions(&self.specialised.scene);
+                fill(&mut row, &radiance(&picture), &self.truth, noise);
                 rows.push(row);
             }
-        };
-        let drawn = |view: &View| view.picture.as_ref().map(radiance).unwrap_or_default();
-        timed(&self.specialised, self.row("gpu", "", against), &self.truth, noise);
-        let what = ", every number that its surfaces take a uniform";
-        let row = self.row("gpu, unspecialised", what, "the specialised shader's picture");
-        timed(&self.unspecialised, row, &drawn(&self.specialised), None);
-        let row = self.row("preset report", "", "the picture with the default methods");
-        timed(&self.report, row, &drawn(self.defaults.as_ref().unwrap_or(&self.specialised)), None);
-        rows.extend(self.on_cpu(against));
+            Some(Err(why)) => self.leave_out(run, "cpu", &why),
+            None => {}
+        }
         rows
     }
 
-    fn on_cpu(&self, against: &str) -> Option<Row> {
-        let (scene, baked) = (&self.specialised.scene, &self.baked);
+    /// This drawer of the example has no row.
+    fn leave_out(&self, run: &Run<'_>, method: &str, why: &str) {
+        run.leave_out(PART, Some(&format!("{}, {method}", self.name)), why.to_owned());
+    }
+
+    fn on_cpu(&self) -> Result<Picture, String> {
         let (width, height) = (self.size, self.size);
         let options = RasterOptions { width, height, samples_per_side: SAMPLES, fold: Fold::Export };
-        let start = Instant::now();
-        let picture = draw::<f32>(scene, baked.as_deref(), &options, |_| ()).ok()?;
-        let mut row = self.row("cpu", "", against);
-        row.cost_ns = Some(start.elapsed().as_secs_f64() * 1e9);
-        row.instructions = fragment_instructions(scene);
-        fill(&mut row, &radiance(&picture), &self.truth, Some(&self.noise));
-        Some(row)
+        let picture = draw::<f32>(&self.specialised.scene, self.baked.as_deref(), &options, |_| ());
+        picture.map_err(|error| error.to_string())
     }
 }
 
@@ -343,9 +391,9 @@ fn fill(row: &mut Row, test: &[[f64; 3]], truth: &[[f64; 3]], noise: Option<&[[f
     row.error_rms = error.rms.map(scale);
     row.error_bound = error.bound.map(scale);
     row.error_max = error.largest.map(scale);
-    row.at = error.at.map(|i| format!("column {}, row {}", i % width, i / width));
+    row.at = error.at.map(|i| format!("column = {}, row = {}", i % width, i / width));
     if error.largest == Some(0.0) {
-        row.at = Some("nowhere: the pictures are the same".to_owned());
+        (row.at, row.note) = (None, Some("the pictures are the same".to_owned()));
     }
     if error.rms.is_none() {
         row.note = Some("the noise of the reference hides the error".to_owned());
@@ -412,11 +460,41 @@ mod tests {
         let nowhere = examples(Path::new("no/such/folder")).expect_err("no folder");
         assert!(nowhere.contains("no/such/folder") && nowhere.contains("start the program in"), "{nowhere}");
 
-        let run = Run::new(Effort::Quick, &|_, _| ());
+        let run = Run::alone(Effort::Quick);
         assert_eq!(rows_of(&[PathBuf::from("no/such/helmet.scene.json")], &run), []);
         let left_out = run.left_out();
         let found = left_out.iter().find(|left| left.what.as_deref() == Some("helmet.scene")).expect("it is named");
         assert!(found.part == PART && found.to_string().contains("helmet.scene.json"), "{found}");
+    }
+
+    /// What the processor cannot draw is named, with the reason, and times have a spread.
+    #[test]
+    fn a_drawing_that_fails_is_named() {
+        let scene = scene(Document::with_surface("plain"));
+        let kept = Kept::default();
+        let view = |scene: &Scene| View::new(scene.clone(), &kept, None, 4);
+        let mut example = Example {
+            name: "ball.material".into(),
+            size: 4,
+            truth: vec![[1.0; 3]; 16],
+            noise: vec![[0.0; 3]; 16],
+            baked: kept.baked(&scene),
+            specialised: view(&scene),
+            unspecialised: view(&scene),
+            defaults: None,
+            report: view(&scene),
+        };
+        let run = Run::alone(Effort::Quick);
+        let rows = example.rows(None, &run);
+        assert_eq!(rows.iter().map(|row| row.method.as_str()).collect::<Vec<_>>(), ["cpu"]);
+        assert!(rows[0].cost_spread.is_some() && run.left_out().is_empty(), "{rows:?}");
+
+        example.specialised.scene.materials[0].document.graph.nodes.clear();
+        example.specialised.picture = Some(Err("the device is lost".into()));
+        assert_eq!(example.rows(None, &run), []);
+        let left_out: Vec<String> = run.left_out().iter().map(ToString::to_string).collect();
+        assert_eq!(left_out[0], "pictures: ball.material, gpu: the device is lost");
+        assert!(left_out[1].starts_with("pictures: ball.material, cpu: "), "{left_out:?}");
     }
 
     /// An error that the reference's noise hides is no error of 0.

@@ -22,8 +22,10 @@ use halfvector_brdf::visibility::{v_hammon, v_kelemen, v_schlick_smith};
 use halfvector_render::Renderer;
 use halfvector_render::function::{Number, library};
 
-use crate::error::Errors;
-use crate::{Effort, Row};
+use super::stations::NO_DEVICE;
+use crate::error::{Errors, named};
+use crate::missing::DEVICE;
+use crate::{Row, Run};
 
 /// A number that every operation rounds to 16 bits.
 #[derive(Clone, Copy, Debug)]
@@ -152,6 +154,8 @@ struct Form {
     name: &'static str,
     /// The arguments of each call, as the WGSL function takes them.
     inputs: fn() -> Vec<Vec<f64>>,
+    /// Their names, and how many numbers each has.
+    names: Names,
     double: fn(&[f64]) -> f64,
     single: fn(&[f32]) -> f32,
     half: fn(&[Half]) -> Half,
@@ -160,17 +164,30 @@ struct Form {
 }
 
 macro_rules! form {
-    ($name:ident, $inputs:ident, $a:ident => $value:expr) => {
-        form!($name, 1, $inputs, $a => $value)
+    ($name:ident, $inputs:ident $names:ident, $a:ident => $value:expr) => {
+        form!($name, 1, $inputs $names, $a => $value)
     };
-    ($name:ident, $parts:literal, $inputs:ident, $a:ident => $value:expr) => {{
+    ($name:ident, $parts:literal, $inputs:ident $names:ident, $a:ident => $value:expr) => {{
         fn value<R: Real>($a: &[R]) -> R {
             $value
         }
         let name = stringify!($name);
-        Form { name, inputs: $inputs, double: value::<f64>, single: value::<f32>, half: value::<Half>, parts: $parts }
+        Form { name, inputs: $inputs, names: $names, double: value::<f64>, single: value::<f32>, half: value::<Half>, parts: $parts }
     }};
 }
+
+/// Names of arguments, and how many numbers each has.
+type Names = &'static [(&'static str, usize)];
+
+const HALF_VECTOR: Names = &[("n.h", 1), ("1 - n.h^2", 1), ("alpha", 1)];
+const DIRECTIONS: Names = &[("n.v", 1), ("n.l", 1), ("l.h", 1), ("alpha", 1)];
+const LIT_DIRECTIONS: Names = &[("albedo", 3), ("n.v", 1), ("n.l", 1), ("l.h", 1), ("roughness", 1)];
+const INCIDENCE: Names = &[("f0", 3), ("f90", 3), ("l.h", 1)];
+const TINTED_INCIDENCE: Names = &[("f0", 3), ("tint", 3), ("l.h", 1)];
+const INTERFACE: Names = &[("ior", 1), ("l.h", 1)];
+const METAL: Names = &[("eta", 1), ("k", 1), ("l.h", 1)];
+const LOBE: Names = &[("n.v", 1), ("roughness", 1)];
+const ALBEDO: Names = &[("f0", 3), ("f90", 3), ("a", 1), ("b", 1)];
 
 /// Cosines down to grazing, and roughness down to the floor of the library.
 const COSINES: [f64; 9] = [1.0, 0.999_999, 0.99, 0.7, 0.3, 0.03, 1e-3, 1e-4, 1e-6];
@@ -249,36 +266,49 @@ fn rgb<R: Copy>(arguments: &[R], first: usize) -> [R; 3] {
 
 fn forms() -> Vec<Form> {
     vec![
-        form!(d_ggx, half_vectors, a => d_ggx(a[0], a[1], a[2])),
-        form!(d_beckmann, half_vectors, a => d_beckmann(a[0], a[1], a[2])),
-        form!(d_charlie, half_vectors, a => d_charlie(a[0], a[1], a[2])),
-        form!(v_smith_ggx_correlated, directions, a => v_smith_ggx_correlated(a[0], a[1], a[2], a[3])),
-        form!(v_smith_ggx_separable, directions, a => v_smith_ggx_separable(a[0], a[1], a[2], a[3])),
-        form!(v_hammon, directions, a => v_hammon(a[0], a[1], a[2], a[3])),
-        form!(v_schlick_smith, directions, a => v_schlick_smith(a[0], a[1], a[2], a[3])),
-        form!(v_kelemen, directions, a => v_kelemen(a[0], a[1], a[2], a[3])),
-        form!(v_neubelt, directions, a => v_neubelt(a[0], a[1], a[2], a[3])),
-        form!(v_smith_beckmann_correlated, directions, a => v_smith_beckmann_correlated(a[0], a[1], a[2], a[3])),
-        form!(f_schlick, incidences, a => f_schlick(rgb(a, 0), rgb(a, 3), a[6])[0]),
-        form!(f_exact, incidences, a => f_exact(rgb(a, 0), rgb(a, 3), a[6])[0]),
-        form!(f_f82_tint, tinted_incidences, a => f_f82_tint(rgb(a, 0), rgb(a, 3), a[6])[0]),
-        form!(f_dielectric, interfaces, a => f_dielectric(a[0], a[1])),
-        form!(f_conductor, metals, a => f_conductor(a[0], a[1], a[2])),
-        form!(diffuse_burley, lit_directions, a => diffuse_burley(rgb(a, 0), a[3], a[4], a[5], a[6])[0]),
-        form!(diffuse_eon, lit_directions, a => diffuse_eon(rgb(a, 0), a[3], a[4], a[5], a[6])[0]),
-        form!(dfg_fit, 2, lobes, a => { let [f0, f90] = dfg_fit(a[0], a[1]); f0 + f90 }),
-        form!(energy_compensation, albedos, a => energy_compensation(rgb(a, 0), rgb(a, 3), [a[6], a[7]])[0]),
-        form!(energy_compensation_fdez_aguera, albedos, a =>
+        form!(d_ggx, half_vectors HALF_VECTOR, a => d_ggx(a[0], a[1], a[2])),
+        form!(d_beckmann, half_vectors HALF_VECTOR, a => d_beckmann(a[0], a[1], a[2])),
+        form!(d_charlie, half_vectors HALF_VECTOR, a => d_charlie(a[0], a[1], a[2])),
+        form!(v_smith_ggx_correlated, directions DIRECTIONS, a => v_smith_ggx_correlated(a[0], a[1], a[2], a[3])),
+        form!(v_smith_ggx_separable, directions DIRECTIONS, a => v_smith_ggx_separable(a[0], a[1], a[2], a[3])),
+        form!(v_hammon, directions DIRECTIONS, a => v_hammon(a[0], a[1], a[2], a[3])),
+        form!(v_schlick_smith, directions DIRECTIONS, a => v_schlick_smith(a[0], a[1], a[2], a[3])),
+        form!(v_kelemen, directions DIRECTIONS, a => v_kelemen(a[0], a[1], a[2], a[3])),
+        form!(v_neubelt, directions DIRECTIONS, a => v_neubelt(a[0], a[1], a[2], a[3])),
+        form!(v_smith_beckmann_correlated, directions DIRECTIONS, a => v_smith_beckmann_correlated(a[0], a[1], a[2], a[3])),
+        form!(f_schlick, incidences INCIDENCE, a => f_schlick(rgb(a, 0), rgb(a, 3), a[6])[0]),
+        form!(f_exact, incidences INCIDENCE, a => f_exact(rgb(a, 0), rgb(a, 3), a[6])[0]),
+        form!(f_f82_tint, tinted_incidences TINTED_INCIDENCE, a => f_f82_tint(rgb(a, 0), rgb(a, 3), a[6])[0]),
+        form!(f_dielectric, interfaces INTERFACE, a => f_dielectric(a[0], a[1])),
+        form!(f_conductor, metals METAL, a => f_conductor(a[0], a[1], a[2])),
+        form!(diffuse_burley, lit_directions LIT_DIRECTIONS, a => diffuse_burley(rgb(a, 0), a[3], a[4], a[5], a[6])[0]),
+        form!(diffuse_eon, lit_directions LIT_DIRECTIONS, a => diffuse_eon(rgb(a, 0), a[3], a[4], a[5], a[6])[0]),
+        form!(dfg_fit, 2, lobes LOBE, a => { let [f0, f90] = dfg_fit(a[0], a[1]); f0 + f90 }),
+        form!(energy_compensation, albedos ALBEDO, a => energy_compensation(rgb(a, 0), rgb(a, 3), [a[6], a[7]])[0]),
+        form!(energy_compensation_fdez_aguera, albedos ALBEDO, a =>
             energy_compensation_fdez_aguera(rgb(a, 0), rgb(a, 3), [a[6], a[7]])[0]),
     ]
 }
 
 /// Measures the part; the cases are the same for every effort.
-pub fn rows(_: Effort) -> Vec<Row> {
+pub fn rows(run: &Run<'_>) -> Vec<Row> {
     let forms = forms();
     let mut rows: Vec<Row> = forms.iter().flat_map(on_cpu).collect();
-    if let (Ok(renderer), Ok(library)) = (Renderer::new(), library()) {
-        rows.extend(forms.iter().flat_map(|form| on_device(form, &renderer, &library)));
+    run.keep(&rows, 0.2);
+    let (renderer, library) = match (Renderer::new(), library()) {
+        (Ok(renderer), Ok(library)) => (renderer, library),
+        (Err(_), _) => {
+            run.leave_out("precision", Some(DEVICE), NO_DEVICE.to_owned());
+            return rows;
+        }
+        (_, Err(error)) => {
+            run.leave_out("precision", Some(DEVICE), format!("the library of shaders cannot be called: {error}"));
+            return rows;
+        }
+    };
+    for (done, form) in forms.iter().enumerate() {
+        rows.extend(on_device(form, &renderer, &library));
+        run.keep(&rows, 0.2 + 0.8 * (done + 1) as f64 / forms.len() as f64);
     }
     rows
 }
@@ -334,10 +364,10 @@ fn judged<F: Format>(form: &Form, name: &str, place: &str, stored: &[Vec<f64>], 
         let truth = (form.double)(x);
         let representable = truth.is_finite() && truth.abs() < 2_f64.powi(F::MOST) * 1.99;
         if found.is_finite() && truth.is_finite() {
-            errors.add((found - truth) / F::ulp(truth), || format!("{x:?}"));
+            errors.add((found - truth) / F::ulp(truth), || named(form.names, x));
         } else if representable {
             failures += 1;
-            row.first_failure.get_or_insert_with(|| format!("{x:?}: {found}, not {truth:.4e}"));
+            row.first_failure.get_or_insert_with(|| format!("{}: {found}, not {truth:?}", named(form.names, x)));
         }
     }
     row.not_finite = Some(failures);
@@ -351,6 +381,7 @@ fn judged<F: Format>(form: &Form, name: &str, place: &str, stored: &[Vec<f64>], 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Effort;
 
     #[test]
     fn distances_of_neighbours() {
@@ -364,7 +395,7 @@ mod tests {
     /// narrow lobe.
     #[test]
     fn single_precision_keeps_to_numbers() {
-        let rows = rows(Effort::Quick);
+        let rows = rows(&Run::alone(Effort::Quick));
         let of = |name: &str| rows.iter().find(|row| row.method == name);
         for row in rows.iter().filter(|row| !row.method.contains(" f16")) {
             assert_eq!(row.not_finite, Some(0), "{row:?}");

@@ -61,7 +61,7 @@ struct Subject {
 /// Measures the part.
 pub fn rows(run: &Run<'_>) -> Vec<Row> {
     let subjects = subjects();
-    let mut rows: Vec<Row> = subjects.iter().map(counted_row).collect();
+    let rows: Vec<Row> = subjects.iter().map(counted_row).collect();
     run.keep(&rows, 0.05);
     // Without a device its columns stay empty.
     let stations = [station()];
@@ -69,13 +69,18 @@ pub fn rows(run: &Run<'_>) -> Vec<Row> {
         run.leave_out("shaders", Some(DEVICE), NO_DEVICE.to_owned());
         return rows;
     };
-    for (row, time) in rows.iter_mut().zip(device_times(&stations, &subjects, run)) {
-        let Some((shortest, spread)) = time else { continue };
-        row.gpu_ns = Some(shortest * 1e9 / f64::from(SIDE * SIDE));
-        row.gpu_spread = Some(spread);
-        row.gpu = Some(name.to_owned());
-    }
-    rows
+    let timed = |times: Vec<Option<(f64, Option<f64>)>>| -> Vec<Row> {
+        let mut rows = rows.clone();
+        for (row, time) in rows.iter_mut().zip(times) {
+            let Some((shortest, spread)) = time else { continue };
+            row.gpu_ns = Some(shortest * 1e9 / f64::from(SIDE * SIDE));
+            row.gpu_spread = spread;
+            row.gpu = Some(name.to_owned());
+        }
+        rows
+    };
+    let times = device_times(&stations, &subjects, run, &|times, done| run.keep(&timed(times), done));
+    timed(times)
 }
 
 /// The part's rows without the device's times: the same on every machine.
@@ -305,8 +310,14 @@ pub(super) fn counted(words: &[u32]) -> Option<u64> {
 /// A sitting draws each shader several times, one after the other, and takes the shortest: a software device shares its cores with
 /// whatever else the machine does, which only ever adds. Sittings of one shader lie apart, and every other one goes through the
 /// shaders from the last to the first. The time is that of the fastest sitting, the spread how much longer the one in the middle
-/// took. What makes the same shader is drawn once for all.
-fn device_times<'s>(stations: &[Option<Station>], subjects: &'s [Subject], run: &Run<'_>) -> Vec<Option<(f64, f64)>> {
+/// took; of fewer than three sittings it is not known. What makes the same shader is drawn once for all. After each sitting `told` gets the
+/// times so far, and how much is done.
+fn device_times<'s>(
+    stations: &[Option<Station>],
+    subjects: &'s [Subject],
+    run: &Run<'_>,
+    told: &dyn Fn(Vec<Option<(f64, Option<f64>)>>, f64),
+) -> Vec<Option<(f64, Option<f64>)>> {
     let environment = studio();
     let mut baked: Vec<(BakeOptions, Arc<BakedEnvironment>)> = Vec::new();
     let mut light = |scene: &Scene| {
@@ -332,7 +343,7 @@ fn device_times<'s>(stations: &[Option<Station>], subjects: &'s [Subject], run: 
     let options = RenderOptions { width: SIDE, height: SIDE, samples_per_side: 1, ..RenderOptions::default() };
     let (ready, all) = (AtomicUsize::new(0), different.len() as f64);
     let drawn = shared(stations, &different, |station, (_, scene, light)| {
-        let drawn = station.is_some_and(|station| station.draw(scene, Some(light), &options).is_some());
+        let drawn = station.is_some_and(|station| station.draw(scene, Some(light), &options).is_ok());
         run.at(0.05 + 0.45 * (ready.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all);
         drawn
     });
@@ -345,16 +356,22 @@ fn device_times<'s>(stations: &[Option<Station>], subjects: &'s [Subject], run: 
         for (done, at) in order.into_iter().enumerate() {
             let ((_, scene, light), (station, drawn)) = (&different[at], drawn[at]);
             let Some(station) = stations[station].as_ref().filter(|_| drawn) else { continue };
-            let pass = || station.draw(scene, Some(light), &options).and_then(|(_, time)| time);
+            let pass = || station.draw(scene, Some(light), &options).ok().and_then(|(_, time)| time);
             let shortest = (0..run.effort().pick(3, 8)).filter_map(|_| pass()).min_by(f64::total_cmp);
             times[at].extend(shortest.filter(|time| *time > 0.0));
             run.at(0.5 + 0.5 * (sitting as f64 + done as f64 / all) / SITTINGS as f64);
         }
+        told(of_subjects(&places, &times), 0.5 + 0.5 * (sitting + 1) as f64 / SITTINGS as f64);
     }
+    of_subjects(&places, &times)
+}
+
+/// Of each subject the shortest time of its sittings, and how much longer the one in the middle took.
+fn of_subjects(places: &[Option<usize>], times: &[Vec<f64>]) -> Vec<Option<(f64, Option<f64>)>> {
     let found = |place: &Option<usize>| {
         let times = &times[(*place)?];
         let shortest = times.iter().copied().min_by(f64::total_cmp)?;
-        Some((shortest, median(times.clone()) / shortest - 1.0))
+        Some((shortest, (times.len() > 2).then(|| median(times.clone()) / shortest - 1.0)))
     };
     places.iter().map(found).collect()
 }

@@ -10,9 +10,10 @@ use halfvector_raster::{RasterOptions, draw};
 use halfvector_scene::light::parse_light;
 use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, MeshSource, Scene};
 use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
 
 use crate::error::Errors;
-use crate::{Effort, Row};
+use crate::{Effort, Row, Run};
 
 const TERM: &str = "specular_aa";
 
@@ -35,14 +36,28 @@ const PLACES: [(&str, BuiltinMesh, bool, f32); 3] = [
 ];
 
 /// Measures the part: a row for each method on each thing that is drawn, the default first.
-pub fn rows(effort: Effort) -> Vec<Row> {
+pub fn rows(run: &Run<'_>) -> Vec<Row> {
+    let effort = run.effort();
     let cases: Vec<_> = PLACES.into_iter().flat_map(|place| ROUGHNESS.map(|roughness| (place, roughness))).collect();
     // Nothing is timed, and a picture is drawn by one thread.
-    let rows = cases.into_par_iter().flat_map_iter(|((name, mesh, bumpy, distance), roughness)| {
-        let scene = scene(mesh, bumpy, roughness, distance);
-        scene.and_then(|scene| methods(scene, &format!("{name}, roughness {roughness}"), effort)).unwrap_or_default()
+    let finished: Mutex<Vec<(usize, Vec<Row>)>> = Mutex::default();
+    let in_order = |finished: &[(usize, Vec<Row>)]| -> Vec<Row> {
+        (0..cases.len())
+            .filter_map(|number| finished.iter().find(|(own, _)| *own == number))
+            .flat_map(|(_, rows)| rows.clone())
+            .collect()
+    };
+    cases.par_iter().enumerate().for_each(|(number, &((name, mesh, bumpy, distance), roughness))| {
+        let what = format!("{name}, roughness {roughness}");
+        let rows = scene(mesh, bumpy, roughness, distance).and_then(|scene| methods(scene, &what, effort));
+        let mut finished = finished.lock().unwrap_or_else(PoisonError::into_inner);
+        match rows {
+            Some(rows) => finished.push((number, rows)),
+            None => run.leave_out(TERM, Some(&what), "it could not be drawn".to_owned()),
+        }
+        run.keep(&in_order(&finished), finished.len() as f64 / cases.len() as f64);
     });
-    rows.collect()
+    in_order(&finished.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
 /// A metal of this roughness in the dark, bumpy or smooth, this far away.
@@ -106,7 +121,7 @@ fn methods(mut scene: Scene, what: &str, effort: Effort) -> Option<Vec<Row>> {
         for &(difference, place) in differences {
             let (sun, pixel) = (place / (SIZE * SIZE) as usize, place % (SIZE * SIZE) as usize);
             let (column, line) = (pixel % SIZE as usize, pixel / SIZE as usize);
-            errors.add(difference / mean, || format!("sun at {}, column {column}, row {line}", SUNS[sun]));
+            errors.add(difference / mean, || format!("sun = [{}], column = {column}, row = {line}", SUNS[sun]));
         }
         let mut row = Row::new(TERM, name, &domain);
         errors.fill(&mut row);

@@ -19,6 +19,10 @@ const ROUGHNESS: [f64; 4] = [0.2, 0.4, 0.7, 1.0];
 /// Reflectance at normal incidence: a dielectric, gold.
 const F0: [[f64; 3]; 2] = [[0.04; 3], [1.0, 0.71, 0.29]];
 
+/// The methods of the rows: the split sum, and the sum over all light.
+pub(crate) const MODEL: &str = "model";
+pub(crate) const WHOLE: &str = "full integration";
+
 /// Rows of the map that stands for the environment, and pieces along an edge of each of its texels.
 const ROWS: usize = 128;
 const PIECES: usize = 2;
@@ -49,7 +53,7 @@ pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment, 
                 let split = std::array::from_fn(|c| (prefiltered[c] * (f0[c] * a + b)) as f32);
                 let exact = std::array::from_fn(|c| f0[c] * light_a[c] + light_b[c]);
                 let mean = std::array::from_fn(|c| truth.mean()[c] * (f0[c] * a + b));
-                add(&mut errors, split, exact, mean, || format!("normal {n:.3?}, F0 {f0:?}"));
+                add(&mut errors, split, exact, mean, || format!("normal = {n:.3?}, f0 = {f0:?}"));
             }
         }
         let mut row = Row { domain, ..costs[0].clone() };
@@ -81,7 +85,7 @@ fn costs(effort: Effort, baked: &BakedEnvironment, cells: &[[f64; 6]]) -> [Row; 
     };
     let mut whole = |_: usize| reflection(cells, n, view(n, N_DOT_V[2]), 0.16)[0][0];
     let times = measured(&mut [&mut split, &mut whole], effort.pick(5, 20));
-    let mut rows = ["model", "full integration"].map(|method| Row::new("split_sum", method, ""));
+    let mut rows = [MODEL, WHOLE].map(|method| Row::new("split_sum", method, ""));
     rows[0].take_time(times[0], READS);
     rows[1].take_time(times[1], 1);
     let texels: usize = baked.radiance.iter().map(|cube| cube.texels.len()).sum();

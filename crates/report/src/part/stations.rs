@@ -21,15 +21,15 @@ pub(super) struct Station {
 }
 
 impl Station {
-    /// A picture, and the device's own time for it [s]; none when the device refuses.
+    /// A picture, and the device's own time for it [s]; or why the device refuses.
     pub(super) fn draw(
         &self,
         scene: &Scene,
         environment: Option<&Arc<BakedEnvironment>>,
         options: &RenderOptions,
-    ) -> Option<(Picture, Option<f64>)> {
+    ) -> Result<(Picture, Option<f64>), String> {
         let mut cache = self.cache.lock().unwrap_or_else(PoisonError::into_inner);
-        self.renderer.render_timed(&mut cache, scene, environment, options).ok()
+        self.renderer.render_timed(&mut cache, scene, environment, options).map_err(|error| error.to_string())
     }
 
     /// The device's name.

@@ -39,6 +39,9 @@ fn bc4(block: [f64; 16]) -> [f64; 16] {
     block.map(|c| if high > low { low + ((c - low) / (high - low) * 7.0).round() / 7.0 * (high - low) } else { low })
 }
 
+/// What [`decoded`] draws.
+pub(crate) const DECODED: &str = "normals of tilt 0..80 deg, stored with 8 bits a channel where the name says nothing else; angle to the stored normal in degrees";
+
 /// Normals of tilt 0..80 degrees, stored and read again.
 fn decoded(count: usize) -> Vec<Row> {
     let normal = |tilt: f64, azimuth: f64| {
@@ -55,14 +58,13 @@ fn decoded(count: usize) -> Vec<Row> {
             normal_from_texel(color, 1.0, false)
         }),
     ];
-    const DOMAIN: &str = "8-bit codes, normals of tilt 0..80 deg; angle to the stored normal in degrees";
     let mut errors: [Errors; 5] = std::array::from_fn(|_| Errors::default());
     for k in 0..count {
         let spread = |g: f64| (0.5 + g * k as f64).fract();
         let (tilt, azimuth) = (80.0 * spread(0.754_877_666), std::f64::consts::TAU * spread(0.569_840_291));
         let n = normal(tilt, azimuth);
         for (errors, (_, stored)) in errors.iter_mut().zip(&methods) {
-            errors.add(degrees_between(stored(n), n), || format!("tilt {tilt:.1} deg"));
+            errors.add(degrees_between(stored(n), n), || format!("tilt = {tilt:.1} deg"));
         }
         // A block of BC5 holds normals that differ by some degrees.
         let block: [Vector; 16] = std::array::from_fn(|i| {
@@ -72,7 +74,7 @@ fn decoded(count: usize) -> Vec<Row> {
         let (x, y) = (channel(0), channel(1));
         for (i, &n) in block.iter().enumerate() {
             let found = normal_from_texel_two_channel([x[i], y[i], 0.0], 1.0, false);
-            errors[4].add(degrees_between(found, n), || format!("tilt {tilt:.1} deg"));
+            errors[4].add(degrees_between(found, n), || format!("tilt = {tilt:.1} deg"));
         }
     }
     let names = methods.iter().map(|(name, _)| *name).chain(["two_channel, BC5"]);
@@ -81,7 +83,7 @@ fn decoded(count: usize) -> Vec<Row> {
         .zip(errors)
         .zip(bytes)
         .map(|((name, errors), bytes)| {
-            let mut row = Row::new("normal_decode", name, DOMAIN);
+            let mut row = Row::new("normal_decode", name, DECODED);
             errors.fill(&mut row);
             row.bytes = Some(bytes);
             row
@@ -109,7 +111,7 @@ fn odd_texels() -> Vec<Row> {
         let domain = format!("texel {name}; angle to straight up in degrees");
         let mut row = Row::new("normal_decode", method, &domain);
         let angle = degrees_between(found, [0.0, 0.0, 1.0]);
-        (row.error_max, row.at) = (Some(angle), Some(format!("{found:.4?}")));
+        (row.error_max, row.at) = (Some(angle), Some(format!("normal read = {found:.4?}")));
         row.not_finite = Some(u64::from(!found.iter().all(|x| x.is_finite())));
         row
     };
@@ -174,7 +176,7 @@ fn heights(count: usize) -> Vec<Row> {
         let found =
             [up, derived, face, normal(slopes(parallax_occlusion(field, enters, offset))), normal(slopes(enters))];
         for (errors, n) in errors.iter_mut().zip(found) {
-            errors.add(degrees_between(n, truth), || format!("uv {seen:.3?}"));
+            errors.add(degrees_between(n, truth), || format!("uv = {seen:.3?}"));
         }
     }
     let names = names.map(|name| if name == "flat" { "normal map without parallax" } else { name });

@@ -3,33 +3,45 @@
 use std::collections::HashSet;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use halfvector_report::missing::LeftOut;
-use halfvector_report::{Effort, PARTS, Report, Row, page, write};
+use halfvector_report::{Effort, PARTS, Report, Row, SoFar, page, write};
 
 use crate::failure::Failure;
 use crate::output::{note, write_file};
 
 /// What a shell says of a command that an interrupt ended: 128 and the signal's number.
-const INTERRUPTED: i32 = 130;
+pub(super) const INTERRUPTED: i32 = 130;
 
 /// A report on its way.
 #[derive(Clone)]
 pub(super) struct Kept {
     folder: PathBuf,
     report: Arc<Mutex<Report>>,
+    /// A process that measures a part again.
+    other: Arc<Mutex<Option<Child>>>,
+}
+
+/// Where another process writes what it measures again.
+pub(super) fn again_folder() -> PathBuf {
+    std::env::temp_dir().join(format!("halfvector-report-again-{}", std::process::id()))
 }
 
 impl Kept {
     /// Of a folder; when the command is interrupted, it says what stands there and ends.
     pub(super) fn begun(folder: &Path, effort: Effort) -> Kept {
         let report = Arc::new(Mutex::new(Report::begun(effort)));
-        let kept = Kept { folder: folder.to_owned(), report };
+        let kept = Kept { folder: folder.to_owned(), report, other: Arc::default() };
         let told = kept.clone();
         on_interrupt(move || {
             // Held to the end: no file is half written.
             let report = told.locked();
+            told.end_other();
+            for left in report.left_out.iter().filter(|left| !report.parts.contains(&left.part)) {
+                note(format_args!("not measured: {left}"));
+            }
             note(in_words(&report, &told.folder));
             std::process::exit(INTERRUPTED);
         });
@@ -40,14 +52,47 @@ impl Kept {
         self.report.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Writes the rows of a part that are finished so far, where there are any. What cannot be written now cannot be at the part's
-    /// end, and is told then.
-    pub(super) fn part_so_far(&self, part: &str, rows: &[Row]) {
-        if !rows.is_empty() {
-            let mut report = self.locked();
-            report.take(part, rows.to_vec());
-            let _ = self.write(&report, part);
+    /// Writes the rows of a part that are finished so far, and what it left out, where there is more of either. What cannot be written
+    /// now cannot be at the part's end, and is told then.
+    pub(super) fn part_so_far(&self, part: &str, so_far: SoFar<'_>) {
+        let mut report = self.locked();
+        let known = report.left_out.iter().filter(|left| left.part == part).count();
+        if so_far.rows.is_empty() && so_far.left_out.len() == known {
+            return;
         }
+        if !so_far.rows.is_empty() {
+            report.take(part, so_far.rows.to_vec());
+        }
+        report.leave_out(part, so_far.left_out.to_vec());
+        let _ = self.write(&report, part);
+    }
+
+    /// Starts a process that an interrupt ends, too.
+    pub(super) fn start(&self, command: &mut Command) -> std::io::Result<()> {
+        let mut other = self.other.lock().unwrap_or_else(PoisonError::into_inner);
+        *other = Some(command.spawn()?);
+        Ok(())
+    }
+
+    /// How the process ended; none while it runs.
+    pub(super) fn ended(&self) -> std::io::Result<Option<ExitStatus>> {
+        let mut other = self.other.lock().unwrap_or_else(PoisonError::into_inner);
+        match other.as_mut() {
+            Some(child) => child.try_wait(),
+            // An interrupt has ended it, and is about to end this process.
+            None => Ok(None),
+        }
+    }
+
+    /// Ends the process, where one runs, and takes away what it wrote.
+    fn end_other(&self) {
+        let mut other = self.other.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(mut child) = other.take() {
+            // One that has ended by itself cannot be ended.
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+        let _ = std::fs::remove_dir_all(again_folder());
     }
 
     /// Writes a part that is measured to its end, and what of it is not.
