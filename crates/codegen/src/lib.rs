@@ -24,7 +24,7 @@ mod validate;
 mod tests;
 
 pub use cost::{Cost, Instructions, NodeCost, cost};
-pub use emit::text::{Origin, Segment};
+pub use emit::text::{Origin, Part, Segment};
 pub use error::CodegenError;
 pub use explain::{Remark, explained};
 pub use layout::PackError;
