@@ -18,6 +18,7 @@ mod pipeline;
 pub mod reflection;
 pub mod target;
 pub mod uniforms;
+mod unread;
 mod validate;
 
 #[cfg(test)]
