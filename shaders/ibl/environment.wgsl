@@ -4,7 +4,7 @@
 /// World direction to environment direction when the environment is turned counter-clockwise seen from above (+Y) by an
 /// angle a: the rotation Ry(-a). `cos_sin` = (cos a, sin a), computed once on the CPU.
 fn rotate_about_y(dir: vec3f, cos_sin: vec2f) -> vec3f {
-    return vec3f(cos_sin.x * dir.x - cos_sin.y * dir.z, dir.y, cos_sin.y * dir.x + cos_sin.x * dir.z);
+    return vec3f(dot(vec2f(cos_sin.x, -cos_sin.y), dir.xz), dir.y, dot(cos_sin.yx, dir.xz));
 }
 
 /// Level that holds a perceptual roughness when level 0 is the unfiltered environment, level 1 is prefiltered for 0.1, the

@@ -361,7 +361,7 @@ fn tangent_in_world(world_from_object: mat4x4f, tangent: vec4f) -> vec4f {
 /// World direction to environment direction when the environment is turned counter-clockwise seen from above (+Y) by an
 /// angle a: the rotation Ry(-a). `cos_sin` = (cos a, sin a), computed once on the CPU.
 fn rotate_about_y(dir: vec3f, cos_sin: vec2f) -> vec3f {
-    return vec3f(cos_sin.x * dir.x - cos_sin.y * dir.z, dir.y, cos_sin.y * dir.x + cos_sin.x * dir.z);
+    return vec3f(dot(vec2f(cos_sin.x, -cos_sin.y), dir.xz), dir.y, dot(cos_sin.yx, dir.xz));
 }
 
 /// Level that holds a perceptual roughness when level 0 is the unfiltered environment, level 1 is prefiltered for 0.1, the
@@ -613,14 +613,11 @@ const TONE_MAP_MAX: f32 = 65504.0;
 // s = 0.76 is compressed by 1 - d^2 / (p + d - s), d = 1 - s, and mixed towards white by 1 - 1 / (0.15 (p - p') + 1).
 fn tone_map_pbr_neutral(c: vec3f) -> vec3f {
     let positive = clamp(c, vec3f(0.0), vec3f(TONE_MAP_MAX));
-    let lowest = min(positive.r, min(positive.g, positive.b));
-    let toe = select(0.04, lowest - 6.25 * lowest * lowest, lowest < 0.08);
-    let x = positive - vec3f(toe);
-    let peak = max(x.r, max(x.g, x.b));
+    let dark = min(min(positive.r, min(positive.g, positive.b)), 0.08);
+    let x = positive - vec3f(dark - 6.25 * dark * dark);
     let start: f32 = 0.76;
-    if peak < start {
-        return x;
-    }
+    // A lower peak is taken as s, where nothing is compressed or mixed: no branch.
+    let peak = max(max(x.r, max(x.g, x.b)), start);
     let room = 1.0 - start;
     let new_peak = 1.0 - room * room / (peak + room - start);
     let white = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);

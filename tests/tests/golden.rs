@@ -172,33 +172,60 @@ fn goldens_hold_only_what_is_needed() {
     }
 }
 
-#[test]
-fn goldens_pass_the_judges() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    for (judge, suffixes, arguments) in [
-        ("glslangValidator", [".vert", ".frag"], &[][..]),
-        ("spirv-val", [".vert.spv", ".frag.spv"], &["--target-env", "vulkan1.1"][..]),
-        // Reads every instruction again to write GLSL of its own.
-        ("spirv-cross", [".vert.spv", ".frag.spv"], &["--vulkan-semantics", "--version", "450"][..]),
-    ] {
-        if Command::new(judge).arg("--version").output().is_err() {
-            assert!(!required("HALFVECTOR_REQUIRE_JUDGES"), "{judge} is not installed");
-            println!("skipped: {judge} is not installed");
-            continue;
+/// A program that judges files of targets, and whether it is there.
+struct Judge {
+    program: &'static str,
+    /// Ends of the names of the files that it reads.
+    suffixes: &'static [&'static str],
+    arguments: &'static [&'static str],
+}
+
+const JUDGES: [Judge; 5] = [
+    // glslangValidator knows the stage by the last suffix.
+    Judge { program: "glslangValidator", suffixes: &[".vert", ".frag"], arguments: &[] },
+    Judge {
+        program: "glslangValidator",
+        suffixes: &[".hlsl"],
+        arguments: &["-D", "-V", "-S", "vert", "-e", "vs_main", "-o", "/dev/null"],
+    },
+    Judge {
+        program: "glslangValidator",
+        suffixes: &[".hlsl"],
+        arguments: &["-D", "-V", "-S", "frag", "-e", "fs_main", "-o", "/dev/null"],
+    },
+    Judge { program: "spirv-val", suffixes: &[".vert.spv", ".frag.spv"], arguments: &["--target-env", "vulkan1.1"] },
+    // Reads every instruction again to write GLSL of its own.
+    Judge {
+        program: "spirv-cross",
+        suffixes: &[".vert.spv", ".frag.spv"],
+        arguments: &["--vulkan-semantics", "--version", "450"],
+    },
+];
+
+/// Holds all targets of shaders before the judges that are installed.
+pub(crate) fn judge<'s>(shaders: impl Iterator<Item = (&'s str, &'s Shader)>) {
+    let judges = JUDGES.iter().filter(|Judge { program, .. }| {
+        let is_there = Command::new(program).arg("--version").output().is_ok();
+        assert!(is_there || !required("HALFVECTOR_REQUIRE_JUDGES"), "{program} is not installed");
+        if !is_there {
+            println!("skipped: {program} is not installed");
         }
-        for golden in goldens() {
-            for kind in TARGETS.iter().filter(|kind| kind.name != "bevy") {
-                for file in target::export(&golden.shader, kind, &golden.name).expect("an export") {
-                    if !suffixes.iter().any(|s| file.name.ends_with(s)) {
-                        continue;
-                    }
-                    // glslangValidator knows the stage by the last suffix.
-                    let path = folder.path().join(format!("{}-{}", kind.name, file.name));
-                    std::fs::write(&path, &file.bytes).expect("a temporary file");
-                    let output = Command::new(judge).args(arguments).arg(&path).output().expect("the judge runs");
+        is_there
+    });
+    let judges: Vec<&Judge> = judges.collect();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, shader) in shaders {
+        for kind in TARGETS.iter().filter(|kind| kind.name != "bevy") {
+            let files = target::export(shader, kind, name).unwrap_or_else(|e| panic!("{name} as {}: {e}", kind.name));
+            for file in files {
+                let path = folder.path().join(format!("{}-{}", kind.name, file.name));
+                std::fs::write(&path, &file.bytes).expect("a temporary file");
+                for judge in judges.iter().filter(|judge| judge.suffixes.iter().any(|s| file.name.ends_with(s))) {
+                    let Judge { program, arguments, .. } = judge;
+                    let output = Command::new(program).args(*arguments).arg(&path).output().expect("the judge runs");
                     assert!(
                         output.status.success(),
-                        "{judge} refuses {}: {}{}",
+                        "{program} refuses {}: {}{}",
                         path.display(),
                         String::from_utf8_lossy(&output.stdout),
                         String::from_utf8_lossy(&output.stderr)
@@ -207,4 +234,10 @@ fn goldens_pass_the_judges() {
             }
         }
     }
+}
+
+#[test]
+fn goldens_pass_the_judges() {
+    let goldens = goldens();
+    judge(goldens.iter().map(|golden| (golden.name.as_str(), &golden.shader)));
 }

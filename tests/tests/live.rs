@@ -50,7 +50,7 @@ fn nudged(document: &Document) -> Vec<(String, Document)> {
             let value = match value {
                 // Whole numbers go by whole steps.
                 Value::Number(x) if x.fract() == 0.0 => Value::Number(x + 1.0),
-                Value::Number(x) => Value::Number(nudge(*x)),
+                Value::Number(x) | Value::Decimal { nearest: x, .. } => Value::Number(nudge(*x)),
                 Value::Vec2(v) => Value::Vec2(v.map(nudge)),
                 Value::Vec3(v) => Value::Vec3(v.map(nudge)),
                 Value::Vec4(v) => Value::Vec4(v.map(nudge)),

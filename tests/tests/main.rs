@@ -9,6 +9,7 @@ mod device;
 mod docs;
 mod drawn;
 mod editor;
+mod examples;
 mod golden;
 mod images;
 mod interp;

@@ -150,16 +150,18 @@ pub(crate) fn scene(path: &Path, mesh: Option<&MeshSource>) -> Result<Scene, Fai
 /// Refuses a document with problems that no shader can be made with; all of them stand in the failure.
 pub(crate) fn refuse_errors(path: &Path, document: &Document) -> Result<(), Failure> {
     let problems = halfvector_graph::check::check(document, Library::standard());
-    let errors: Vec<&Problem> = problems.iter().filter(|problem| problem.severity == Severity::Error).collect();
-    if errors.is_empty() {
-        return Ok(());
-    }
+    let errors: Vec<Problem> = problems.into_iter().filter(|problem| problem.severity == Severity::Error).collect();
+    if errors.is_empty() { Ok(()) } else { Err(has_errors(path, document, &errors)) }
+}
+
+/// The failure of a document that has errors.
+pub(crate) fn has_errors(path: &Path, document: &Document, errors: &[Problem]) -> Failure {
     let failure = Failure::input(format!("the material `{}` has problems", document.name)).at(path);
-    Err(errors
-        .into_iter()
+    errors
+        .iter()
         .take(MOST_SHOWN)
         .fold(failure, |failure, problem| failure.because(problem))
-        .try_to("`halfvector check` lists them all"))
+        .try_to("`halfvector check` lists them all")
 }
 
 /// Most problems in one failure.

@@ -55,13 +55,13 @@ fn typed(document: &Document, library: &Library, socket: &SocketRef, text: &str)
             "false" => Ok(Value::Bool(false)),
             _ => Err("it takes true or false".to_owned()),
         },
-        SocketType::Value(Type::I32) if text.parse::<i32>().is_ok() => single(text),
+        SocketType::Value(Type::I32) if Value::from_digits(text).is_some() => {
+            let value = Value::from_digits(text).filter(|value| value.components_as(Type::I32).is_some());
+            value.ok_or_else(|| format!("it takes a whole number from {} to {}", i32::MIN, i32::MAX))
+        }
         SocketType::Value(ty) => {
             let numbers = numbers(text)?;
             let value = match (numbers[..].len(), ty) {
-                (1, Type::I32) if Value::Number(numbers[0]).components_as(ty).is_none() => {
-                    return Err(format!("it takes a whole number from {} to {}", i32::MIN, i32::MAX));
-                }
                 (1, Type::Vec2) => Value::Vec2([numbers[0]; 2]),
                 (1, Type::Vec3) => Value::Vec3([numbers[0]; 3]),
                 (1, Type::Vec4) => Value::Vec4([numbers[0]; 4]),
@@ -75,8 +75,10 @@ fn typed(document: &Document, library: &Library, socket: &SocketRef, text: &str)
             };
             Ok(value)
         }
-        SocketType::Generic if text.parse::<i32>().is_ok() => single(text),
-        SocketType::Generic => vector(&numbers(text)?),
+        SocketType::Generic => match (numbers(text)?.as_slice(), Value::from_digits(text)) {
+            ([_], Some(value)) => Ok(value),
+            (numbers, _) => vector(numbers),
+        },
         SocketType::Texture => {
             let color_space = match (node.values.get(&socket.socket), &input.default) {
                 (Some(Value::Image(image)), _) => {
@@ -95,11 +97,6 @@ fn typed(document: &Document, library: &Library, socket: &SocketRef, text: &str)
         }
         SocketType::Surface => Err("it takes the result of a surface node, which cannot be written".to_owned()),
     }
-}
-
-/// A whole number with all its digits.
-fn single(text: &str) -> Result<Value, String> {
-    text.parse().map(Value::whole).map_err(|_| format!("`{text}` is not a whole number"))
 }
 
 fn plural(count: usize) -> String {
@@ -155,6 +152,25 @@ mod tests {
         assert_eq!(values["metallic"], Value::Number(1.0));
         set_text(&mut document, "base_color=0.5").expect("a grey");
         assert_eq!(document.graph.nodes["surface"].values["base_color"], Value::Vec3([0.5; 3]));
+    }
+
+    /// What no `f32` holds is taken as it is written, or refused; never rounded.
+    #[test]
+    fn whole_numbers_are_exact() {
+        let mut document = document();
+        let node = halfvector_graph::document::Node::new("input/integer");
+        document.graph.nodes.insert("n".into(), node);
+        let socket = SocketRef::new("n", "value");
+        document.parameters.push(Parameter { name: "n".into(), label: None, socket, range: None });
+        for text in ["n=16777217", "n=16777217.0", "n=1.6777217e7"] {
+            set_text(&mut document, text).unwrap_or_else(|e| panic!("{text}: {e}"));
+            assert_eq!(document.graph.nodes["n"].values["value"], Value::Integer(16_777_217), "{text}");
+        }
+        set_text(&mut document, "n=-2147483648").expect("the least");
+        for text in ["n=16777217.5", "n=-2147483649", "n=2147483648", "n=0.99999999999", "n=1e-60", "n=nan", "n=1e99"] {
+            let error = set_text(&mut document, text).expect_err(text);
+            assert!(error.contains("a whole number from -2147483648 to 2147483647"), "{text}: {error}");
+        }
     }
 
     #[test]

@@ -18,13 +18,14 @@ mod pipeline;
 pub mod reflection;
 pub mod target;
 pub mod uniforms;
+mod unread;
 mod validate;
 
 #[cfg(test)]
 mod tests;
 
 pub use cost::{Cost, Instructions, NodeCost, cost};
-pub use emit::text::{Origin, Segment};
+pub use emit::text::{Origin, Part, Segment};
 pub use error::CodegenError;
 pub use explain::{Remark, explained};
 pub use layout::PackError;

@@ -1,4 +1,4 @@
-//! Which lines of a shader come from which node of the document or which file of the library.
+//! Which lines of a shader come from which node of the document, which file of the library, or which part of the frame around them.
 
 use crate::Shader;
 use crate::emit::text::Origin;
@@ -10,12 +10,11 @@ pub struct Lines {
     pub first: usize,
     /// The last one, included.
     pub last: usize,
-    /// The node or file. Nodes inside groups have paths: `rust/noise`.
+    /// The node, file or part of the frame. Nodes inside groups have paths: `rust/noise`.
     pub origin: Origin,
 }
 
-/// The lines of a shader that come from nodes and library files, in order; what stands between them is the frame that codegen writes.
-/// Empty lines belong to nothing.
+/// The lines of a shader in order: each that is not empty stands in one entry. Empty lines between entries belong to none.
 pub fn line_map(shader: &Shader) -> Vec<Lines> {
     let mut map: Vec<Lines> = Vec::new();
     let mut line = 1;
@@ -25,7 +24,7 @@ pub fn line_map(shader: &Shader) -> Vec<Lines> {
         let inside = text.trim_matches('\n').matches('\n').count();
         let first = line + before;
         line += text.matches('\n').count();
-        if segment.origin == Origin::Frame || text.trim_matches('\n').is_empty() {
+        if text.trim_matches('\n').is_empty() {
             continue;
         }
         let last = first + inside;

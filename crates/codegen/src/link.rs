@@ -13,6 +13,7 @@ use halfvector_shaders::{Item, ItemKind, SliceError, TokenKind, emit, generic_ty
 
 use crate::cost::{Instructions, of_function};
 use crate::passes::eval::{self, Shape};
+use crate::unread::without_unread;
 
 /// Functions of the vertex stage that entry points call; the other files of `entry/` are whole shaders.
 const TRANSFORM_FILE: &str = "entry/transform.wgsl";
@@ -33,6 +34,8 @@ pub(crate) struct Index {
     files: Vec<SourceFile>,
     items: Vec<IndexItem>,
     by_name: HashMap<String, usize>,
+    /// By function of the document: places of the parameters that it was written with and does without here.
+    unread: HashMap<String, Vec<usize>>,
     compiled: Mutex<HashMap<Instance, Option<Arc<Compiled>>>>,
 }
 
@@ -117,6 +120,7 @@ impl Clone for Index {
             files: self.files.clone(),
             items: self.items.clone(),
             by_name: self.by_name.clone(),
+            unread: self.unread.clone(),
             compiled: Mutex::new(compiled),
         }
     }
@@ -138,6 +142,7 @@ impl Index {
             files: Vec::new(),
             items: Vec::new(),
             by_name: HashMap::new(),
+            unread: HashMap::new(),
             compiled: Mutex::new(HashMap::new()),
         };
         for file in files.iter().filter(|f| !f.path.starts_with("entry/") || f.path == TRANSFORM_FILE) {
@@ -160,7 +165,10 @@ impl Index {
         let mut index = standard.clone();
         let first = index.items.len();
         for (id, function) in sound {
-            if index.add(format!("custom/{id}").into(), function.source.clone().into()).is_err() {
+            let name = &function.def.function.name;
+            let (source, unread) = without_unread(&function.source, name);
+            index.unread.insert(name.clone(), unread);
+            if index.add(format!("custom/{id}").into(), source.into()).is_err() {
                 break;
             }
         }
@@ -192,6 +200,11 @@ impl Index {
     /// Whether the library has an item of this name.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.by_name.contains_key(name)
+    }
+
+    /// Places of the arguments that a function is not given, though its node has inputs for them: it does not read them.
+    pub(crate) fn unread(&self, function: &str) -> &[usize] {
+        self.unread.get(function).map_or(&[], Vec::as_slice)
     }
 
     /// A function by its name in the library.

@@ -149,7 +149,7 @@ fn alone(document: &Document, library: &Library, methods: &Methods, fold: Fold) 
     let sound = Sound::new(document, library)?;
     let material = sound.material()?;
     // lower
-    let program = lower_material(&material.types, methods, fold)?;
+    let program = lower_material(&material.types, material.index, methods, fold)?;
     let alone = material.alone(program)?;
     alone.shader(&material, methods, Product::Surface)
 }
@@ -175,7 +175,9 @@ pub fn height(document: &Document, library: &Library, methods: &Methods) -> Resu
     let sound = Sound::new(document, library)?;
     let material = sound.material()?;
     let of = |stage| -> Result<_, CodegenError> {
-        lower_height(&material.types, methods, stage)?.map(|program| material.alone(program)).transpose()
+        lower_height(&material.types, material.index, methods, stage)?
+            .map(|program| material.alone(program))
+            .transpose()
     };
     let Some(vertex) = of(StageKind::Vertex)? else { return Ok(None) };
     let arena = &vertex.program.vertex.arena;

@@ -55,7 +55,7 @@ impl fmt::Display for Place {
                 )
             }
             Origin::Library(file) => write!(f, "shaders/{file}, line {} of the shader: ", self.line),
-            Origin::Frame => write!(f, "line {} of the shader: ", self.line),
+            Origin::Frame(_) => write!(f, "line {} of the shader: ", self.line),
         }
     }
 }
@@ -97,7 +97,7 @@ fn place(shader: &Shader, offsets: impl Iterator<Item = usize>) -> Option<Place>
     let rank = |place: &Place| match place.origin {
         Origin::Node(_) => 0,
         Origin::Library(_) => 1,
-        Origin::Frame => 2,
+        Origin::Frame(_) => 2,
     };
     places.into_iter().min_by_key(rank)
 }

@@ -6,6 +6,7 @@
 //! Nothing is validated beyond naga's parser and no text is kept: the code generator links from the same files.
 
 mod borrowed;
+mod complaint;
 pub mod custom;
 mod grammar;
 mod loops;

@@ -141,6 +141,14 @@ pub enum Value {
     Number(f32),
     /// For `i32`: a whole number that no `f32` holds, such as 16777217; see [`Value::whole`].
     Integer(i32),
+    /// For `f32`, and for no `i32`: what was written is none, though the nearest `f32` is, such as 16777217.5 or -2147483649; see
+    /// [`Value::from_digits`].
+    Decimal {
+        /// What an `f32` holds of it.
+        nearest: f32,
+        /// What was written.
+        exact: f64,
+    },
     /// For `vec2f`.
     Vec2([f32; 2]),
     /// For `vec3f`.
@@ -158,13 +166,26 @@ impl Value {
         if near as i64 == i64::from(x) { Value::Number(near) } else { Value::Integer(x) }
     }
 
+    /// A number as it is written: exact where it is an `i32`, else for a float. `None` where it is no number; what is too large for an
+    /// `f32` is infinite.
+    pub fn from_digits(digits: &str) -> Option<Value> {
+        // Straight to f32: through f64 it could be rounded twice.
+        let (nearest, exact): (f32, f64) = (digits.parse().ok()?, digits.parse().ok()?);
+        let is_i32 = |x: f64| x.fract() == 0.0 && (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&x);
+        Some(match is_i32(exact).then(|| Value::whole(exact as i32)) {
+            Some(integer @ Value::Integer(_)) => integer,
+            None if is_i32(f64::from(nearest)) => Value::Decimal { nearest, exact },
+            _ => Value::Number(nearest),
+        })
+    }
+
     /// The components of a number or vector; a bool is 0 or 1; none for an image, or for an integer that no `f32` holds:
     /// [`Value::numbers`] has it.
     pub fn components(&self) -> Option<&[f32]> {
         Some(match self {
             Value::Bool(false) => &[0.0],
             Value::Bool(true) => &[1.0],
-            Value::Number(x) => std::slice::from_ref(x),
+            Value::Number(x) | Value::Decimal { nearest: x, .. } => std::slice::from_ref(x),
             Value::Vec2(v) => v,
             Value::Vec3(v) => v,
             Value::Vec4(v) => v,
@@ -172,7 +193,7 @@ impl Value {
         })
     }
 
-    /// The components of any number, exact; none for an image.
+    /// The components of any number, as exact as sockets have them; none for an image.
     pub fn numbers(&self) -> Option<Vec<f64>> {
         match self {
             Value::Integer(x) => Some(vec![f64::from(*x)]),
@@ -192,7 +213,10 @@ impl Value {
                 (x.fract() == 0.0 && (-2_147_483_648.0..2_147_483_648.0).contains(x)).then(|| vec![*x])
             }
             (Value::Integer(x), Type::I32) => Some(vec![*x as f32]),
-            (Value::Number(x), Type::F32 | Type::Vec2 | Type::Vec3 | Type::Vec4) => Some(vec![*x; ty.components()]),
+            (
+                Value::Number(x) | Value::Decimal { nearest: x, .. },
+                Type::F32 | Type::Vec2 | Type::Vec3 | Type::Vec4,
+            ) => Some(vec![*x; ty.components()]),
             (Value::Integer(x), Type::F32 | Type::Vec2 | Type::Vec3 | Type::Vec4) => {
                 Some(vec![*x as f32; ty.components()])
             }
@@ -207,7 +231,7 @@ impl Value {
     pub fn ty(&self) -> Option<Type> {
         match self {
             Value::Bool(_) => Some(Type::Bool),
-            Value::Number(_) | Value::Integer(_) => Some(Type::F32),
+            Value::Number(_) | Value::Integer(_) | Value::Decimal { .. } => Some(Type::F32),
             Value::Vec2(_) => Some(Type::Vec2),
             Value::Vec3(_) => Some(Type::Vec3),
             Value::Vec4(_) => Some(Type::Vec4),

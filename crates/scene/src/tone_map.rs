@@ -69,14 +69,10 @@ pub fn agx_contrast<R: Real>(t: [R; 3]) -> [R; 3] {
 /// reflection adds, the peak above 0.76 is compressed by 1 - d^2 / (p + d - s) and mixed towards white.
 pub fn tone_map_pbr_neutral<R: Real>(c: [R; 3]) -> [R; 3] {
     let positive = c.map(|x| clamp(x, real(0.0), real(TONE_MAP_MAX)));
-    let lowest = min(positive[0], min(positive[1], positive[2]));
-    let toe = if lowest < real(0.08) { lowest - real::<R>(6.25) * lowest * lowest } else { real(0.04) };
-    let x = positive.map(|x| x - toe);
-    let peak = max(x[0], max(x[1], x[2]));
+    let dark = min(min(positive[0], min(positive[1], positive[2])), real(0.08));
+    let x = positive.map(|x| x - (dark - real::<R>(6.25) * dark * dark));
     let start: R = real(0.76);
-    if peak < start {
-        return x;
-    }
+    let peak = max(max(x[0], max(x[1], x[2])), start);
     let one: R = real(1.0);
     let room = one - start;
     let new_peak = one - room * room / (peak + room - start);

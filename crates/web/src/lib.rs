@@ -58,8 +58,8 @@ pub const MAX_TEXELS: u32 = 8192;
 
 /// The page, UTF-8. `environment` is the scene's environment, baked; it may be absent when the scene has none.
 ///
-/// The same scene and environment give the same bytes. Images and cubes are compressed as zlib; a page under a high dynamic
-/// range environment of 512 texels has some 10 to 20 MB, one under `white` or none a few hundred KB.
+/// The same scene and environment give the same bytes. Images and cubes are compressed without loss; a page under a high dynamic
+/// range environment of 512 texels has some 4 to 8 MB, one under `white` or none a few hundred KB.
 ///
 /// # Errors
 /// When a material gives no shader, or something is too large for a browser.

@@ -73,6 +73,33 @@ async function inflated(text) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
+/** The bytes of half floats from what they differ from left + above - left above, each channel of a level by itself. */
+function undifferenced(bytes, levels, layers, channels) {
+  const count = bytes.length / 2;
+  const halves = new Uint16Array(count);
+  let first = 0;
+  let next = 0;
+  for (const [width, height] of levels) {
+    const row = width * channels;
+    for (let channel = 0; channel < channels; channel++) {
+      for (let y = 0; y < layers * height; y++) {
+        const above = y % height > 0 ? row : 0;
+        for (let x = 0; x < width; x++, next++) {
+          const code = (bytes[next] << 8) | bytes[count + next];
+          const i = first + y * row + x * channels + channel;
+          let value = (code >> 1) ^ -(code & 1);
+          if (x > 0) value += halves[i - channels];
+          if (above) value += halves[i - above];
+          if (x > 0 && above) value -= halves[i - above - channels];
+          halves[i] = value;
+        }
+      }
+    }
+    first += layers * height * row;
+  }
+  return new Uint8Array(halves.buffer);
+}
+
 function show(message) {
   document.getElementById("message").textContent = message;
 }
@@ -102,8 +129,10 @@ async function prepare({ device, software }) {
   };
 
   const textures = [];
-  for (const { format, texel, layers, levels, blob } of scene.textures) {
-    const [bytes, [width, height]] = [await inflated(blob), levels[0]];
+  for (const { format, texel, layers, levels, halves, blob } of scene.textures) {
+    const coded = await inflated(blob);
+    const bytes = halves > 0 ? undifferenced(coded, levels, layers, halves) : coded;
+    const [width, height] = levels[0];
     const texture = device.createTexture({
       size: [width, height, layers], format, mipLevelCount: levels.length,
       usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_DST,

@@ -246,7 +246,7 @@ fn origin_text(session: &Session, origin: Option<&halfvector_codegen::Origin>) -
             format!("{}: click to show the node", path_label(session, id))
         }
         Some(halfvector_codegen::Origin::Library(file)) => format!("shaders/{file}"),
-        Some(halfvector_codegen::Origin::Frame) => "Interface, transforms and lighting".to_owned(),
+        Some(halfvector_codegen::Origin::Frame(part)) => part.help().to_owned(),
         None => String::new(),
     }
 }

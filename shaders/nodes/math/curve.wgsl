@@ -6,12 +6,12 @@ fn monotone_curve(x: f32, v0: f32, v1: f32, v2: f32, v3: f32, v4: f32) -> f32 {
     let along = 4.0 * clamp(x, 0.0, 1.0);
     let interval = min(floor(along), 3.0);
     let t = along - interval;
-    // Beyond the ends the curve goes on as a line.
-    var points = array<f32, 7>(2.0 * v0 - v1, v0, v1, v2, v3, v4, 2.0 * v4 - v3);
-    let i = i32(interval);
-    let p1 = points[i + 1];
-    let p2 = points[i + 2];
-    let rise = vec3f(p1 - points[i], p2 - p1, points[i + 3] - p2);
+    // The four points about the interval; beyond the ends the curve goes on as a line. No array: it would lie in memory.
+    let left = select(vec4f(2.0 * v0 - v1, v0, v1, v2), vec4f(v0, v1, v2, v3), along >= 1.0);
+    let right = select(vec4f(v1, v2, v3, v4), vec4f(v2, v3, v4, 2.0 * v4 - v3), along >= 3.0);
+    let points = select(left, right, along >= 2.0);
+    let p1 = points.y;
+    let rise = points.yzw - points.xyz;
     let before = rise.xy;
     let after = rise.yz;
     let slope = (sign(before) + sign(after)) * min(min(abs(before), abs(after)), 0.25 * abs(before + after));

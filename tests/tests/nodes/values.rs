@@ -96,6 +96,9 @@ const CASES: &[Case] = &[
     // Half as light to the eye: 0.5^3 of the light.
     ("color/mix_oklab", &[], &[0.125, 0.125, 0.125]),
     ("color/oklch_adjust", &[("color", &[0.2, 0.5, 0.1])], &[0.2, 0.5, 0.1]),
+    // MaterialX's `colorcorrect`: to and from the luminance, through 0 too.
+    ("color/correct", &[("color", &[0.2, 0.5, 0.1]), ("saturation", &[0.0])], &[0.40734, 0.40734, 0.40734]),
+    ("color/correct", &[("color", &[0.5, 0.2, 0.2]), ("saturation", &[5.0])], &[1.44488, -0.05512, -0.05512]),
     ("color/rec709_from_display_p3", &[("color", &[1.0, 1.0, 1.0])], &[1.0, 1.0, 1.0]),
     ("color/rec709_from_rec2020", &[("color", &[0.0, 1.0, 0.0])], &[-0.587_641, 1.132_9, -0.100_579]),
     ("color/rec709_from_acescg", &[("color", &[1.0, 1.0, 1.0])], &[1.0, 1.0, 1.0]),

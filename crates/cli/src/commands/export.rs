@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use halfvector_codegen::Shader;
 use halfvector_codegen::target::{OutputFile, TARGETS, Target, export, target};
+use halfvector_codegen::{CodegenError, Shader};
 use halfvector_graph::document::Document;
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
@@ -83,7 +83,6 @@ pub(crate) fn run(args: &ExportArgs) -> Result<u8, Failure> {
             .try_to("a *.material.json file, with --scene for the scene that it stands in"));
     }
     let document = input::material(&args.document)?;
-    input::refuse_errors(&args.document, &document)?;
     let Export { shader, files, chosen } = match args.target {
         Wanted::Code(target) => code(args, &document, target)?,
         Wanted::Page => page(args, document)?,
@@ -127,6 +126,7 @@ fn choose(
     target: &dyn Fn(Needs) -> Needs,
 ) -> Result<Option<Chosen>, Failure> {
     let Some(max_error) = args.max_error else { return Ok(None) };
+    input::refuse_errors(&args.document, document)?;
     let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
     let scene = Scene::from_material(document.clone(), input::folder(&args.document), &sphere)
         .map_err(|error| failed(args, error))?;
@@ -181,7 +181,10 @@ fn wear(scene: &mut Scene, document: &Document, args: &ExportArgs) -> Result<(),
 
 fn shader(args: &ExportArgs, document: &Document, needs: &Needs, chosen: Option<&Chosen>) -> Result<Shader, Failure> {
     let remarks = chosen.map_or_else(Vec::new, Chosen::remarks);
-    halfvector_codegen::explained(document, Library::standard(), needs, &remarks).map_err(|error| failed(args, error))
+    halfvector_codegen::explained(document, Library::standard(), needs, &remarks).map_err(|error| match error {
+        CodegenError::Problems(errors) => input::has_errors(&args.document, document, &errors),
+        error => failed(args, error),
+    })
 }
 
 fn failed(args: &ExportArgs, error: impl std::fmt::Display) -> Failure {

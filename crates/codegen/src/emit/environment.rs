@@ -22,7 +22,7 @@ struct Mirror<'m> {
 struct Lookup {
     /// What is seen there.
     name: &'static str,
-    /// Direction in the environment.
+    /// Direction in the world.
     dir: String,
     roughness: String,
 }
@@ -103,10 +103,12 @@ impl Shading<'_, '_, '_> {
             self.loop_of_strips(rough)?;
             lookups = smooth;
         } else if self.parts.plan.specular {
-            let (dir, roughness) = ("reflection_dir".to_owned(), self.specular_roughness.clone());
-            lookups.insert(0, Lookup { name: "reflection", dir, roughness });
+            let roughness = self.specular_roughness.clone();
+            let sample = self.prefiltered("reflection_dir", &roughness)?;
+            self.line(&format!("let reflection = {sample};"));
         }
         for Lookup { name, dir, roughness } in lookups {
+            let dir = self.turned(&dir)?;
             let sample = self.prefiltered(&dir, &roughness)?;
             self.line(&format!("let {name} = {sample};"));
         }
@@ -119,12 +121,12 @@ impl Shading<'_, '_, '_> {
         let (strip, strips) = (self.writer.library("anisotropic_strip")?, self.writer.library("ANISOTROPIC_STRIPS")?);
         let strip = format!("let strip = {strip}(frame, tangent, alphas.x, alphas.y, f32(i));");
         let direction = self.leaned("frame", "strip.dir", "strip.perceptual_roughness")?;
-        let direction = self.turned(&direction)?;
         self.line("var strips = vec4f(0.0);");
         for Lookup { name, .. } in &others {
             self.line(&format!("var {name} = vec3f(0.0);"));
         }
         let Some((Lookup { dir, roughness, .. }, rest)) = others.split_first() else {
+            let direction = self.turned(&direction)?;
             let sample = self.prefiltered(&direction, "strip.perceptual_roughness")?;
             self.line(&format!("for (var i = 0u; i < {strips}; i++) {{"));
             self.line(&format!("    {strip}"));
@@ -145,7 +147,8 @@ impl Shading<'_, '_, '_> {
             self.line(&format!("        lookup = vec4f({dir}, {roughness});"));
         }
         self.line("    }");
-        let sample = self.prefiltered("lookup.xyz", "lookup.w")?;
+        let direction = self.turned("lookup.xyz")?;
+        let sample = self.prefiltered(&direction, "lookup.w")?;
         self.line(&format!("    let seen = {sample};"));
         self.line("    strips += weight * vec4f(seen, 1.0);");
         // What was seen last is handed on from name to name, so that each has its own in the end.
@@ -162,12 +165,11 @@ impl Shading<'_, '_, '_> {
     fn transmitted(&mut self) -> Result<Lookup, CodegenError> {
         let roughness = self.root("perceptual_roughness", "0.5");
         let (dir, roughness) = if self.parts.plan.thin_walled {
-            let direction = format!("-{}", self.leaned("frame", "frame.view_dir", &roughness)?);
-            (self.turned(&direction)?, roughness)
+            (format!("-{}", self.leaned("frame", "frame.view_dir", &roughness)?), roughness)
         } else {
             let lookup = self.writer.library("transmission_lookup")?;
             self.line(&format!("let behind = {lookup}(frame, transmission.eta, transmission.alpha);"));
-            (self.turned("behind.dir")?, "behind.perceptual_roughness".to_owned())
+            ("behind.dir".to_owned(), "behind.perceptual_roughness".to_owned())
         };
         Ok(Lookup { name: "transmitted", dir, roughness })
     }
@@ -176,8 +178,8 @@ impl Shading<'_, '_, '_> {
     fn coat_reflection(&mut self) -> Result<Lookup, CodegenError> {
         let (frame, roughness) = (self.coat_frame, self.root("coat_roughness", "0.0"));
         self.line(&format!("let coat_mirror_dir = reflect(-{frame}.view_dir, {frame}.normal);"));
-        let direction = self.leaned(frame, "coat_mirror_dir", &roughness)?;
-        Ok(Lookup { name: "coat_reflection", dir: self.turned(&direction)?, roughness })
+        let dir = self.leaned(frame, "coat_mirror_dir", &roughness)?;
+        Ok(Lookup { name: "coat_reflection", dir, roughness })
     }
 
     /// The direction of the base's reflection in the world.

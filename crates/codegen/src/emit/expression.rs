@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use halfvector_graph::value::{Type, Wrap};
 
 use crate::CodegenError;
-use crate::emit::text::{Origin, Text};
+use crate::emit::text::{Origin, Part, Text};
 use crate::emit::value;
 use crate::ir::{Entry, Expr, Id, Program, Stage, Ty};
 use crate::link::{Index, Instance};
@@ -155,7 +155,13 @@ impl<'w, 'a> Writer<'w, 'a> {
         entrance: Entrance,
         displaced: bool,
     ) -> Self {
-        let (uses, body, atoms, types) = (Uses::default(), Text::default(), Vec::new(), Vec::new());
+        // What belongs to no node is made of the surface's sockets.
+        let part = match entrance {
+            Entrance::Vertex => Part::Vertex,
+            Entrance::Fragment => Part::Lobes,
+            Entrance::Material => Part::Material,
+        };
+        let (uses, body, atoms, types) = (Uses::default(), Text::of(part), Vec::new(), Vec::new());
         Writer { program, index, names, entrance, displaced, uses, body, atoms, types }
     }
 
@@ -188,7 +194,7 @@ impl<'w, 'a> Writer<'w, 'a> {
         };
         let (origin, beside) = match info {
             Some(info) => (Origin::Node(info.id.clone()), format!(" // {}", comment(info.label))),
-            None => (Origin::Frame, String::new()),
+            None => (Origin::Frame(self.body.part), String::new()),
         };
         self.body.push(origin.clone(), &format!("    let {name} = {text};{}", beside.trim_end()));
         self.body.push(origin, "\n");

@@ -9,7 +9,7 @@ use halfvector_graph::needs::{Needs, ShaderOutput, ToneMap};
 use crate::CodegenError;
 use crate::emit::expression::{Entrance, EnvironmentTexture, Names, Uses, ViewMember, Writer};
 use crate::emit::lights::single;
-use crate::emit::text::Text;
+use crate::emit::text::{Part, Text};
 use crate::emit::value::number;
 use crate::ir::Program;
 use crate::link::Index;
@@ -35,21 +35,25 @@ pub(crate) fn fragment(parts: &FragmentParts<'_, '_>) -> Result<(Text, Uses), Co
     let mut shading = Shading {
         parts,
         writer,
-        lines: Text::default(),
+        lines: Text::of(Part::Fragment),
         first: true,
         coat_frame: "frame",
         specular_roughness: String::new(),
     };
     shading.discard();
     if plan.is_lit() {
+        shading.lines.part = Part::Lobes;
         shading.setup()?;
+        shading.lines.part = Part::Lights;
         shading.lights()?;
+        shading.lines.part = Part::Environment;
         shading.environment()?;
     }
+    shading.lines.part = Part::Output;
     shading.finish()?;
     let Shading { mut writer, lines, .. } = shading;
 
-    let mut before = Text::default();
+    let mut before = Text::of(Part::Fragment);
     if writer.uses.contexts.contains("world_normal") {
         let (safe, normal) = (writer.library("normalize_or")?, writer.member("world_normal"));
         before.line(&format!("    let world_normal = {safe}({normal}, vec3f(0.0, 0.0, 1.0));"));
@@ -65,7 +69,7 @@ pub(crate) fn fragment(parts: &FragmentParts<'_, '_>) -> Result<(Text, Uses), Co
     if plan.double_sided && plan.is_lit() {
         arguments.push("@builtin(front_facing) front_facing: bool");
     }
-    let mut text = Text::default();
+    let mut text = Text::of(Part::Fragment);
     text.line("@fragment");
     text.line(&format!("fn fs_main({}) -> @location(0) vec4f {{", arguments.join(", ")));
     text.append(&before);

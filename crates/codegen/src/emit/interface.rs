@@ -4,7 +4,7 @@ use halfvector_graph::document::Document;
 use halfvector_graph::value::Type;
 
 use crate::emit::expression::{EnvironmentTexture, Names, Uses, ViewMember, lights_member};
-use crate::emit::text::Text;
+use crate::emit::text::{Origin, Text};
 use crate::emit::vertex::VARYINGS;
 use crate::ir::{Input, Program};
 use crate::passes::plan::Plan;
@@ -240,7 +240,13 @@ pub(crate) fn declarations(reflection: &Reflection, text: &mut Text) {
             Resource::Uniform(block) => {
                 text.line(&format!("struct {} {{", block.struct_name));
                 for member in &block.members {
-                    text.line(&format!("    {}: {},", member.name, member.ty.wgsl()));
+                    let line = format!("    {}: {},", member.name, member.ty.wgsl());
+                    match &member.source {
+                        UniformSource::Input(socket) => {
+                            text.push(Origin::Node(socket.node.clone()), &format!("{line}\n"));
+                        }
+                        _ => text.line(&line),
+                    }
                 }
                 text.line("}");
                 text.line(&format!("{place} var<uniform> {}: {};", binding.name, block.struct_name));

@@ -2,7 +2,7 @@
 
 use crate::CodegenError;
 use crate::emit::expression::{Entrance, Names, Uses, Writer};
-use crate::emit::text::Text;
+use crate::emit::text::{Part, Text};
 use crate::ir::Program;
 use crate::link::Index;
 use crate::names::Namer;
@@ -42,7 +42,7 @@ pub(crate) fn material(
         }
     };
     let argument = if writer.uses.contexts.is_empty() { "" } else { "context: Context" };
-    let mut text = Text::default();
+    let mut text = Text::of(Part::Material);
     text.line(&format!("fn {name}({argument}) -> {result} {{"));
     text.append(&writer.body);
     text.line(&format!("    return {value};"));

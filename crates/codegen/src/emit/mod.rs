@@ -22,7 +22,7 @@ use crate::emit::expression::{Names, Uses};
 use crate::emit::fragment::FragmentParts;
 use crate::emit::interface::Interface;
 use crate::emit::material::Product;
-use crate::emit::text::{Origin, Text};
+use crate::emit::text::{Origin, Part, Text};
 use crate::ir::Program;
 use crate::link::{self, Index};
 use crate::passes::plan::Plan;
@@ -47,8 +47,10 @@ pub(crate) fn shader(
 
     let mut text = Text::default();
     header::header(document, &plan, needs, remarks, &mut text);
+    text.part = Part::Bindings;
     interface::declarations(&reflection, &mut text);
     text.line("");
+    text.part = Part::Interface;
     interface::stage_structs(&reflection, &fragment_uses, &mut text);
     text.line("");
     text.append(&vertex);
@@ -76,7 +78,9 @@ pub(crate) fn material(
 
     let mut text = Text::default();
     header::material_header(document, product, &mut text);
+    text.part = Part::Bindings;
     interface::declarations(&reflection, &mut text);
+    text.part = Part::Material;
     if !uses.contexts.is_empty() {
         text.line("struct Context {");
         for context in halfvector_graph::context::CONTEXTS.iter().filter(|c| uses.contexts.contains(c.name)) {
@@ -92,7 +96,7 @@ pub(crate) fn material(
     text.line("");
     text.append(&body);
     library(index, &[&uses], methods, &mut text);
-    let Text { text: wgsl, segments } = text;
+    let Text { text: wgsl, segments, .. } = text;
     let (dropped, dropped_nodes, methods) = (Vec::new(), Vec::new(), Vec::new());
     Ok(Shader { wgsl, reflection, segments, dropped, dropped_nodes, methods })
 }

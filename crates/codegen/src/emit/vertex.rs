@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::CodegenError;
 use crate::emit::expression::{Entrance, Uses, ViewMember, Writer};
-use crate::emit::text::Text;
+use crate::emit::text::{Part, Text};
 use crate::ir::Program;
 use crate::link::Index;
 use crate::names::Namer;
@@ -36,7 +36,7 @@ pub(crate) fn vertex<'a>(
     let height = program.vertex.root("height").filter(|_| plan.height).map(|id| writer.atom(id).to_owned());
 
     let object = "object.world_from_object";
-    let mut lines = Text::default();
+    let mut lines = Text::of(Part::Vertex);
     let position = writer.member("position");
     let transform = writer.library("position_in_world")?;
     lines.line(&format!("    let world_position = {transform}({object}, {position});"));
@@ -79,7 +79,7 @@ pub(crate) fn vertex<'a>(
     }
     lines.line("    return out;");
 
-    let mut text = Text::default();
+    let mut text = Text::of(Part::Vertex);
     text.line("@vertex");
     text.line("fn vs_main(in: VertexInput) -> Varyings {");
     text.append(&lines);

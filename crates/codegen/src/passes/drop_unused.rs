@@ -1,4 +1,4 @@
-//! Pass: what no wanted value uses is left out, and a node of several outputs of which one is used is computed by its
+//! Pass: what no wanted value uses and no function reads is left out, and a node of several outputs of which one is used is computed by its
 //! cheaper form for that output, where it has one.
 
 use std::collections::BTreeSet;
@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use halfvector_graph::node_def::Argument;
 
 use crate::ir::{Expr, Id, NodeInfo, Program, Stage, Ty};
+use crate::link::Index;
 
 /// Drops in both stages.
 pub(crate) fn drop_unused(program: &mut Program<'_>) {
@@ -14,6 +15,17 @@ pub(crate) fn drop_unused(program: &mut Program<'_>) {
     // Only the fragment's functions have single-output forms that may take implicit derivatives.
     if narrow(&mut program.fragment, &program.nodes) {
         drop_dead(&mut program.fragment);
+    }
+}
+
+/// Drops arguments that functions do not read.
+pub(crate) fn drop_unread(stage: &mut Stage<'_>, index: &Index) {
+    for entry in &mut stage.arena.exprs {
+        if let Expr::Call { function, arguments, .. } = &mut entry.expr {
+            let unread = index.unread(function);
+            let mut places = 0..;
+            arguments.retain(|_| places.next().is_none_or(|place| !unread.contains(&place)));
+        }
     }
 }
 

@@ -13,6 +13,7 @@ use halfvector_graph::value::{Filter, SocketType, Type, Value};
 
 use crate::ir::{Arena, Entry, Expr, Id, Input, NodeInfo, Program, Stage, Table, Ty};
 use crate::link::Index;
+use crate::passes::drop_unused::drop_unread;
 use crate::passes::fold;
 use crate::passes::mixed;
 use crate::passes::specialise::{NORMALS, SOCKETS};
@@ -283,6 +284,7 @@ pub(crate) fn lower<'a>(
     if let Some(height) = lowering.surface(&mut vertex.arena, &mut table, "height")? {
         vertex.roots.insert("height", height);
     }
+    drop_unread(&mut vertex, index);
     // Faults are found again, and told, when the whole program is folded.
     fold::fold_stage(&mut vertex, index, &mut Vec::new());
     let varies = vertex.root("height").is_some_and(|id| {
@@ -313,6 +315,7 @@ pub(crate) fn lower<'a>(
             fragment.roots.insert(socket, id);
         }
     }
+    drop_unread(&mut fragment, index);
     let Table { inputs, images, .. } = table;
     Ok(Program { nodes: types.nodes.clone(), inputs, images, fragment, vertex, derived_normal })
 }
@@ -320,6 +323,7 @@ pub(crate) fn lower<'a>(
 /// The program of the material alone: the call of the surface node, as the root `surface` of the fragment stage.
 pub(crate) fn lower_material<'a>(
     types: &Types<'a>,
+    index: &Index,
     methods: &Methods,
     fold: Fold,
 ) -> Result<Program<'a>, CodegenError> {
@@ -332,6 +336,7 @@ pub(crate) fn lower_material<'a>(
     }
     let surface = lowering.call(&mut stage.arena, &mut table, types.surface)?;
     stage.roots.insert("surface", surface);
+    drop_unread(&mut stage, index);
     let Table { inputs, images, .. } = table;
     let nodes = types.nodes.clone();
     Ok(Program { nodes, inputs, images, fragment: stage, ..Program::default() })
@@ -340,6 +345,7 @@ pub(crate) fn lower_material<'a>(
 /// The program of the height alone, as the root `height` of a stage; `None` where the surface has no such socket.
 pub(crate) fn lower_height<'a>(
     types: &Types<'a>,
+    index: &Index,
     methods: &Methods,
     stage: StageKind,
 ) -> Result<Option<Program<'a>>, CodegenError> {
@@ -348,6 +354,7 @@ pub(crate) fn lower_height<'a>(
     let mut lowering = Lowering::new(types, methods, Fold::Export, stage);
     let Some(height) = lowering.surface(&mut made.arena, &mut table, "height")? else { return Ok(None) };
     made.roots.insert("height", height);
+    drop_unread(&mut made, index);
     let Table { inputs, images, .. } = table;
     let alone = Program { nodes: types.nodes.clone(), inputs, images, ..Program::default() };
     Ok(Some(match stage {

@@ -1,7 +1,8 @@
 //! HLSL, shader model 5.1: both stages in one file. Registers are the WGSL bindings, spaces the WGSL groups.
 //!
 //! naga reads samplers through a heap and an index buffer, which only wgpu has. The lines that declare them follow one
-//! form, and are exchanged for plain registers.
+//! form, and are exchanged for plain registers. Arrays of zeros it writes as `(float[7])0`, which not every compiler takes: they
+//! become lists.
 
 use std::collections::BTreeMap;
 
@@ -41,7 +42,7 @@ fn write(source: &Source<'_>, name: &str) -> Result<Vec<OutputFile>, ExportError
     for entry_point in info.entry_point_names {
         entry_point.map_err(|e| fail(e.to_string()))?;
     }
-    let text = plain_samplers(&text);
+    let text = listed_zeros(&plain_samplers(&text));
     if text.contains("nagaSamplerHeap") || text.matches(": register(s").count() != samplers.len() {
         return Err(fail("naga's form of samplers is not the one that is known here".into()));
     }
@@ -65,6 +66,50 @@ fn plain_samplers(text: &str) -> String {
         plain.push('\n');
     }
     plain
+}
+
+/// Exchanges zeros that are cast to an array for lists of zeros: initial values, and results of functions.
+fn listed_zeros(text: &str) -> String {
+    let mut listed = String::with_capacity(text.len());
+    for line in text.lines() {
+        match zeros(line) {
+            Some((before, zeros)) if !before.ends_with("return ") => {
+                listed.push_str(&format!("{before}{};", zeros.list()))
+            }
+            Some((before, zeros)) => {
+                let Zeros { element, count } = zeros;
+                let indent = &before[..before.len() - "return ".len()];
+                listed.push_str(&format!(
+                    "{indent}const {element} zeros[{count}] = {};\n{indent}return zeros;",
+                    zeros.list()
+                ));
+            }
+            None => listed.push_str(line),
+        }
+        listed.push('\n');
+    }
+    listed
+}
+
+/// An array of zeros.
+struct Zeros<'t> {
+    /// Type of an element.
+    element: &'t str,
+    count: usize,
+}
+
+impl Zeros<'_> {
+    fn list(&self) -> String {
+        let zero = format!("({})0", self.element);
+        format!("{{ {} }}", vec![zero.as_str(); self.count].join(", "))
+    }
+}
+
+/// What stands before `(T[N])0;` at the end of a line, and the array.
+fn zeros(line: &str) -> Option<(&str, Zeros<'_>)> {
+    let (before, ty) = line.strip_suffix("])0;")?.rsplit_once('(')?;
+    let (element, count) = ty.split_once('[')?;
+    Some((before, Zeros { element, count: count.parse().ok()? }))
 }
 
 fn declares_heap(line: &str) -> bool {
@@ -93,5 +138,13 @@ mod tests {
                     StructuredBuffer<uint> nagaGroup1SamplerIndexArray : register(t2, space255);\n\
                     static const SamplerState linear_repeat = nagaSamplerHeap[nagaGroup1SamplerIndexArray[2]];\nfloat x;\n";
         assert_eq!(plain_samplers(naga), "SamplerState linear_repeat : register(s2, space1);\nfloat x;\n");
+    }
+
+    #[test]
+    fn zeros_become_lists() {
+        let naga = "    float3 p[2] = (float3[2])0;\n    return (int[3])0;\n    float4 c = (float4)0;\n    x = a[0];\n";
+        let listed = "    float3 p[2] = { (float3)0, (float3)0 };\n    const int zeros[3] = { (int)0, (int)0, (int)0 };\n    \
+                      return zeros;\n    float4 c = (float4)0;\n    x = a[0];\n";
+        assert_eq!(listed_zeros(naga), listed);
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn reflection(source: &Source<'_>, name: &str, target: &str, details:
     root.insert("left_out".into(), left_out.collect());
     if target == "wgsl" {
         // Other targets have other lines.
-        root.insert("lines".into(), line_map(source.shader).iter().filter_map(lines).collect());
+        root.insert("lines".into(), line_map(source.shader).iter().map(lines).collect());
     }
     if let Some((key, value)) = details {
         root.insert(key.into(), value);
@@ -47,13 +47,13 @@ pub(super) fn reflection(source: &Source<'_>, name: &str, target: &str, details:
     file(format!("{name}.json"), format!("{text}\n"))
 }
 
-fn lines(lines: &Lines) -> Option<Value> {
-    let (key, name) = match &lines.origin {
-        Origin::Node(id) => ("node", id),
-        Origin::Library(file) => ("file", file),
-        Origin::Frame => return None,
-    };
-    Some(json!({ "first": lines.first, "last": lines.last, key: name }))
+fn lines(lines: &Lines) -> Value {
+    let Lines { first, last, origin } = lines;
+    match origin {
+        Origin::Node(id) => json!({ "first": first, "last": last, "node": id }),
+        Origin::Library(file) => json!({ "first": first, "last": last, "file": file }),
+        Origin::Frame(part) => json!({ "first": first, "last": last, "node": null, "part": part.name() }),
+    }
 }
 
 fn binding(binding: &Binding) -> Value {

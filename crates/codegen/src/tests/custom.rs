@@ -2,6 +2,7 @@
 
 use halfvector_graph::document::{Document, SocketRef};
 use halfvector_graph::library::Library;
+use halfvector_graph::method::Methods;
 use halfvector_graph::value::Type;
 
 use super::{document, environment, exported, made, sun};
@@ -87,4 +88,27 @@ fn an_error_in_it_is_told_with_a_caret() {
     let told = error.to_string();
     assert!(told.contains("the function `f`, line 7, column 16: "), "{told}");
     assert!(told.contains("\n        return x * y;\n                   ^"), "{told}");
+}
+
+/// What a function takes and never reads is in no block, binding or line: not the number, the picture, or what feeds it.
+#[test]
+fn what_a_function_does_not_read_is_left_out() {
+    let nodes = r#""noise": {"node": "procedural/value_noise_2d"},
+        "n": {"node": "custom/f", "values": {"b": 0.25, "image": {"file": "a.png", "color_space": "linear"}}}"#;
+    let links = r#"{"from": "noise.out", "to": "n.c"}, {"from": "n.out", "to": "surface.perceptual_roughness"}"#;
+    let parameters = r#"{"name": "a", "socket": "n.a"}, {"name": "b", "socket": "n.b"}"#;
+    let mut document = super::with_parameters("", nodes, links, parameters);
+    let text = "/// F\n///\n/// Halves.\n/// @node custom/f\n/// - a: read [0.5]\n/// - b: not read [0.5]\n/// - c: not read [0.5]\n/// - image: not read [image linear]\n\
+        fn f(a: f32, b: f32, c: f32, image: texture_2d<f32>, image_sampler: sampler) -> f32 {\n    return 0.5 * a;\n}\n";
+    document.functions.insert("f".into(), text.into());
+    for fold in [Fold::Export, Fold::Live] {
+        let made = super::made(&document, &sun(), fold);
+        let names: Vec<&str> = made.reflection.parameters.iter().map(|p| p.name.as_str()).collect();
+        assert_eq!(names, ["a"], "{}", made.wgsl);
+        assert!(!made.wgsl.contains("value_noise") && !made.wgsl.contains("texture_2d"), "{}", made.wgsl);
+        assert!(made.wgsl.contains("node_custom_f(parameters.a)"), "{}", made.wgsl);
+    }
+    let alone = material(&document, Library::standard(), &Methods::default()).unwrap_or_else(|e| panic!("{e}"));
+    validate(&alone).unwrap_or_else(|e| panic!("{e}\n{}", alone.wgsl));
+    assert!(alone.wgsl.contains("node_custom_f(parameters.a)"), "{}", alone.wgsl);
 }

@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use halfvector_graph::document::Document;
-use halfvector_graph::needs::Needs;
+use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput, ToneMap};
 
 use super::{environment, exported, maps, material, sun, with_parameters};
 use crate::Shader;
@@ -180,5 +180,44 @@ fn all_lobes_with_four_maps_and_their_numbers_exposed() {
         check(&format!("all lobes, four maps, environment, {name} exposed"), &exported(&document, &environment()), 800);
         let lit = format!("all lobes, four maps, one directional light and environment, {name} exposed");
         check(&lit, &exported(&document, &both()), most);
+    }
+}
+
+/// What a scene adds to the shader that is promised: its display, a turned environment, lights; and what a document adds by
+/// rasterisation and occlusion. Each alone keeps to the promise; of more lights, all of them at once, and all numbers exposed the figure
+/// is told, and may not grow.
+#[test]
+fn all_lobes_with_four_maps_in_a_scene() {
+    let shown = Needs { output: ShaderOutput::Display(ToneMap::PbrNeutral), ..both() };
+    let turned = Needs { environment: Some(EnvironmentNeeds { rotated: true }), ..shown.clone() };
+    let suns = Needs { directional_lights: 2, ..shown.clone() };
+    let plain = all_lobes(&[], &[]);
+    let mut two_sided = plain.clone();
+    two_sided.surface.double_sided = true;
+    let occlusion = r#"{"from": "roughness.g", "to": "surface.occlusion"}"#;
+    let mut occluded = plain.clone();
+    occluded.graph.links.extend(with_parameters("", "", occlusion, "").graph.links);
+    let mut all_three = occluded.clone();
+    all_three.surface.double_sided = true;
+    let weights = ["coat_weight", "sheen_color", "transmission_weight", "anisotropy", "thin_film_weight"];
+    let (five, fourteen) = (all_lobes(&[], &weights), all_lobes(&[], &LOBES.map(|(name, _)| name)));
+    let unfolded = all_lobes(&NO_NUMBER_FOLDS, &LOBES.map(|(name, _)| name));
+    let cases: [(&str, &Document, &Needs, usize); 9] = [
+        ("shown", &plain, &shown, 800),
+        ("shown, two-sided", &two_sided, &shown, 800),
+        ("shown, occlusion map", &occluded, &shown, 800),
+        ("shown, turned environment", &plain, &turned, 800),
+        ("shown, two suns", &plain, &suns, 830),
+        ("shown, five weights exposed", &five, &shown, 800),
+        ("shown, all fourteen numbers exposed", &fourteen, &shown, 900),
+        ("shown, turned environment, two-sided, occlusion map", &all_three, &turned, 880),
+        ("shown, all fourteen exposed, none of which folds", &unfolded, &shown, 900),
+    ];
+    for (name, document, needs, most) in cases {
+        check(
+            &format!("all lobes, four maps, one directional light and environment, {name}"),
+            &exported(document, needs),
+            most,
+        );
     }
 }

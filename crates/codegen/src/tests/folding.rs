@@ -95,7 +95,7 @@ fn live_numbers_change_no_text() {
                     Value::Number(3.0)
                 }
                 Value::Integer(_) => Value::whole(3),
-                Value::Number(_) => Value::Number(0.37),
+                Value::Number(_) | Value::Decimal { .. } => Value::Number(0.37),
                 Value::Vec2(_) => Value::Vec2([0.37, 0.2]),
                 Value::Vec3(_) => Value::Vec3([0.37, 0.2, 0.9]),
                 Value::Vec4(_) => Value::Vec4([0.37, 0.2, 0.9, 0.1]),

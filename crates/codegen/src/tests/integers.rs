@@ -48,6 +48,28 @@ fn files_keep_every_digit() {
     }
 }
 
+/// What is written is no whole number of 32 bits though its nearest f32 is one: refused, and kept for a number of another kind.
+#[test]
+fn what_is_no_integer_is_not_rounded_to_one() {
+    let written = |n: &str| {
+        let text = halfvector_graph::file::to_json(&above(7_654_321, 0, ""));
+        halfvector_graph::file::from_json(&text.replace("7654321", n)).unwrap_or_else(|e| panic!("{n}: {e}"))
+    };
+    for n in ["16777217.5", "-2147483649", "2147483648", "0.99999999999", "1e-60", "4194303.1"] {
+        let document = written(n);
+        let problems = check(&document, Library::standard());
+        let told = problems.iter().any(|p| p.severity == Severity::Error && p.message.contains("a whole number from"));
+        assert!(told, "{n}: {problems:?}");
+        let text = halfvector_graph::file::to_json(&document);
+        assert_eq!(halfvector_graph::file::from_json(&text).ok().as_ref(), Some(&document), "{text}");
+        let value = &document.graph.nodes["far"].values["n"];
+        assert_eq!(value.numbers(), Some(vec![f64::from(n.parse::<f32>().expect("a number"))]), "{n}");
+    }
+    for (n, whole) in [("16777217.0", 16_777_217), ("-2147483648.0", i32::MIN), ("1.6777217e7", 16_777_217)] {
+        assert_eq!(written(n).graph.nodes["far"].values["n"], Value::whole(whole), "{n}");
+    }
+}
+
 #[test]
 fn folding_and_uniforms_keep_every_digit() {
     for n in INTEGERS {

@@ -38,8 +38,14 @@ fn cases() -> Vec<(&'static str, Document, Needs)> {
         material("", r#""n": {"node": "custom/f"}"#, r#"{"from": "n.out", "to": "surface.perceptual_roughness"}"#);
     let text = "/// F\n///\n/// Packs.\n/// @node custom/f\n/// - uv: where [context uv0]\nfn f(uv: vec2f) -> f32 {\n    return unpack2x16float(pack2x16float(uv)).x + quantizeToF16(uv.y);\n}\n";
     packs.functions.insert("f".into(), text.into());
+    // Arrays of zeros, which HLSL has no expression for that every compiler takes.
+    let mut arrays =
+        material("", r#""n": {"node": "custom/f"}"#, r#"{"from": "n.out", "to": "surface.perceptual_roughness"}"#);
+    let text = "/// F\n///\n/// Looks things up.\n/// @node custom/f\n/// - uv: where [context uv0]\nfn f(uv: vec2f) -> f32 {\n    let none = array<vec2f, 3>();\n    var sums = array<f32, 4>(uv.x, uv.y, 0.5, 1.0);\n    var flags = array<bool, 2>();\n    for (var i = 0; i < 3; i++) { sums[i] += sums[i + 1]; flags[i % 2] = sums[i] > 0.5; }\n    return select(sums[0] + none[i32(3.0 * fract(uv.x))].x, sums[2], flags[1]);\n}\n";
+    arrays.functions.insert("f".into(), text.into());
     vec![
         ("packs", packs, sun()),
+        ("arrays", arrays, sun()),
         ("exposed", exposed.clone(), sun()),
         ("twenty", exposed, twenty),
         ("plain", material("", "", ""), sun()),

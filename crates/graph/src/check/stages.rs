@@ -91,7 +91,7 @@ fn roughness(checker: &mut Checker, surface: &str) {
         }
     };
     let constant = match (checker.wiring.incoming(surface, SOCKET), node.values.get(SOCKET).or_else(default)) {
-        (None, Some(Value::Number(x))) => Some(*x),
+        (None, Some(Value::Number(x) | Value::Decimal { nearest: x, .. })) => Some(*x),
         _ => None,
     };
     if let Some(x) = constant.filter(|x| *x < PUNCTUAL_ROUGHNESS_FLOOR) {

@@ -52,6 +52,7 @@ pub(crate) fn value(value: &Value) -> String {
         Value::Number(x) if x.fract() == 0.0 => format!("the number {}", f64::from(*x)),
         Value::Number(x) => format!("the number {x}"),
         Value::Integer(x) => format!("the number {x}"),
+        Value::Decimal { exact, .. } => format!("the number {exact:?}"),
         Value::Vec2(_) => "two numbers".into(),
         Value::Vec3(_) => "three numbers".into(),
         Value::Vec4(_) => "four numbers".into(),
@@ -89,7 +90,8 @@ pub(crate) fn nearest<'c>(name: &str, candidates: impl Iterator<Item = &'c str>)
     let best = candidates
         .filter(is_near)
         .map(|candidate| (distance(name, candidate), candidate))
-        .min_by_key(|(distance, _)| *distance);
+        // Of two as near, the one that is written on or cut off.
+        .min_by_key(|(distance, candidate)| (*distance, !name.starts_with(candidate) && !candidate.starts_with(name)));
     best.filter(|(distance, candidate)| *distance * 3 <= name.len().max(candidate.len()))
         .map(|(_, candidate)| candidate)
 }

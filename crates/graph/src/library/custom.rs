@@ -12,8 +12,9 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use halfvector_shaders::{Item, ItemKind, Token, TokenKind, slice, tokens};
 
+use super::complaint::word_at;
 use super::loops::work;
-use super::signature::{SURFACE_STRUCT, judge};
+use super::signature::{SURFACE_STRUCT, judge, wgsl_names};
 use super::{Source, borrowed, line_of, node};
 use crate::check::words::nearest;
 use crate::document::is_name;
@@ -172,16 +173,36 @@ fn without_comments(text: &str) -> String {
     bare
 }
 
-/// What naga says of an unknown name, with the function of the library that was perhaps meant.
+/// What is said of an unknown name, with what was perhaps meant.
 fn with_hint(text: &str, at: usize, message: String) -> String {
-    let rest = text.get(at..).unwrap_or("");
-    let word = &rest[..rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len())];
+    /// Words of other shading languages.
+    const ELSEWHERE: [(&str, &str); 14] = [
+        ("float", "f32"),
+        ("double", "f32"),
+        ("int", "i32"),
+        ("uint", "u32"),
+        ("float2", "vec2f"),
+        ("float3", "vec3f"),
+        ("float4", "vec4f"),
+        ("lerp", "mix"),
+        ("frac", "fract"),
+        ("rsqrt", "inverseSqrt"),
+        ("inversesqrt", "inverseSqrt"),
+        ("texture2D", "textureSampleLevel"),
+        ("mod", "a % b"),
+        ("fmod", "a % b"),
+    ];
+    let word = word_at(text, at);
     if !message.contains("no definition in scope") || borrowed::is_function(word) {
         return message;
     }
+    let elsewhere = ELSEWHERE.iter().find(|(other, _)| *other == word).map(|(_, ours)| *ours);
+    if let Some(likely) = elsewhere.or_else(|| nearest(word, wgsl_names())) {
+        return format!("there is no `{word}`; did you mean `{likely}`?");
+    }
     match nearest(word, borrowed::functions()) {
-        Some(likely) => format!("{message}; did you mean the library's `{likely}`?"),
-        None => format!("{message}; it is none of WGSL's, of yours and of the library's"),
+        Some(likely) => format!("there is no `{word}`; did you mean the library's `{likely}`?"),
+        None => format!("there is no `{word}`: it is none of WGSL's, of yours and of the library's"),
     }
 }
 

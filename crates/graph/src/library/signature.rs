@@ -1,9 +1,9 @@
 //! Signatures of the library's functions, from naga: argument and result types, docs of struct members, implicit derivatives.
-//! The only file of this crate that names naga.
+//! Beside `complaint` the only file of this crate that names naga.
 
 use std::collections::HashMap;
 
-use super::{LibraryProblem, Source, line_of};
+use super::{LibraryProblem, Source, complaint, line_of};
 use crate::value::{SocketType, Type};
 
 /// What a function takes and gives.
@@ -137,16 +137,7 @@ pub(super) fn judge(text: &str) -> Result<Signatures, (usize, String)> {
             return Err((at, "a value of this type is too large".into()));
         }
         let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), CAPABILITIES);
-        validator.validate(&module).map_err(|e| {
-            let at = e.spans().filter_map(|(span, _)| span.to_range()).map(|range| range.start).last().unwrap_or(0);
-            let mut message = e.as_inner().to_string();
-            let mut source = std::error::Error::source(e.as_inner());
-            while let Some(cause) = source {
-                message = format!("{message}: {cause}");
-                source = cause.source();
-            }
-            (at, message)
-        })?;
+        validator.validate(&module).map_err(|e| complaint::of_validator(&module, text, &e))?;
         let both = |(name, signature): (String, Signature)| (name, [signature.clone(), signature]);
         Ok(Signatures { functions: signatures(&module).into_iter().map(both).collect() })
     };
@@ -154,6 +145,11 @@ pub(super) fn judge(text: &str) -> Result<Signatures, (usize, String)> {
         Ok(worker) => worker.join().unwrap_or_else(|_| Err((0, "the WGSL parser failed".into()))),
         Err(e) => Err((0, format!("no thread to parse in: {e}"))),
     })
+}
+
+/// Names of WGSL's own functions and types.
+pub(super) fn wgsl_names() -> impl Iterator<Item = &'static str> {
+    naga::keywords::wgsl::BUILTIN_IDENTIFIERS.iter().copied()
 }
 
 /// Largest value that a document's function may handle.
@@ -175,11 +171,9 @@ fn parse(text: &str) -> Result<naga::Module, ParseError> {
     let mut options = naga::front::wgsl::Options::new();
     options.parse_doc_comments = true;
     naga::front::wgsl::Frontend::new_with_options(options).parse(text).map_err(|e| {
-        let at = e.location(text).map_or(0, |location| location.offset as usize);
+        let at = e.location(text).map(|location| location.offset as usize);
         let notes: Vec<&str> = e.labels().map(|(_, label)| label).filter(|label| !label.is_empty()).collect();
-        let message =
-            if notes.is_empty() { e.message().into() } else { format!("{} ({})", e.message(), notes.join("; ")) };
-        (at, message)
+        complaint::of_parser(text, at, e.message(), &notes)
     })
 }
 

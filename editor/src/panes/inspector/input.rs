@@ -45,7 +45,7 @@ pub(crate) fn value_of(session: &Session, def: &NodeDef, socket: &SocketRef) -> 
 /// The number that an unconnected input has; 0 without one.
 pub(crate) fn number_of(session: &Session, def: &NodeDef, socket: &SocketRef) -> f32 {
     match value_of(session, def, socket) {
-        Some(Value::Number(number)) => number,
+        Some(Value::Number(number) | Value::Decimal { nearest: number, .. }) => number,
         _ => 0.0,
     }
 }

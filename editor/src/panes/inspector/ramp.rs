@@ -82,7 +82,7 @@ fn stops(session: &Session, id: &NodeId, def: &NodeDef) -> Vec<Stop> {
         let at = if moves { input::number_of(session, def, &position) } else { f32::from(u8::from(place == last)) };
         let color = match input::value_of(session, def, &SocketRef::new(id, &format!("color_{name}"))) {
             Some(Value::Vec3(color)) => color,
-            Some(Value::Number(grey)) => [grey; 3],
+            Some(Value::Number(grey) | Value::Decimal { nearest: grey, .. }) => [grey; 3],
             _ => [0.5; 3],
         };
         let position = Some(position).filter(|socket| moves && session.incoming(socket).is_none());

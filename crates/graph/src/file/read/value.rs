@@ -61,10 +61,7 @@ pub(super) fn pair(value: &Spanned, place: &str) -> Result<[f32; 2], Wrong> {
 pub(super) fn socket_value(value: &Spanned, place: &str) -> Result<Value, Wrong> {
     match &value.json {
         Json::Bool(b) => Ok(Value::Bool(*b)),
-        Json::Number(digits) => Ok(match digits.parse().map(Value::whole) {
-            Ok(integer @ Value::Integer(_)) => integer,
-            _ => Value::Number(number(value, place)?),
-        }),
+        Json::Number(digits) => Ok(Value::from_digits(digits).unwrap_or(Value::Number(f32::NAN))),
         Json::String(_) => Ok(Value::Number(number(value, place)?)),
         Json::Array(items) => {
             let numbers: Vec<f32> = items.iter().map(|item| number(item, place)).collect::<Result<_, _>>()?;

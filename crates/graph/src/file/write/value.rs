@@ -15,6 +15,8 @@ pub(super) fn value_json(value: &Value) -> String {
         Value::Bool(b) => b.to_string(),
         Value::Number(x) => number(*x),
         Value::Integer(x) => x.to_string(),
+        // With an exponent where that is shorter.
+        Value::Decimal { exact, .. } => format!("{exact:?}"),
         Value::Vec2(v) => numbers(v),
         Value::Vec3(v) => numbers(v),
         Value::Vec4(v) => numbers(v),
@@ -90,6 +92,10 @@ pub(super) fn number(x: f32) -> String {
         return if x > 0.0 { "\"inf\"".into() } else { "\"-inf\"".into() };
     }
     let magnitude = x.abs();
+    // Fewer digits would be those of another whole number: it reads back as that one.
+    if x.fract() == 0.0 && (16_777_216.0..=2_147_483_648.0).contains(&magnitude) {
+        return f64::from(x).to_string();
+    }
     if magnitude == 0.0 || (1e-6..1e9).contains(&magnitude) { format!("{x}") } else { format!("{x:e}") }
 }
 
