@@ -93,18 +93,3 @@ fn a_press_on_a_socket_by_a_screen_reader_offers_what_it_can_be_connected_with()
     key(&mut window, NONE, egui::Key::Enter);
     assert_eq!(source(&window, "surface", "metallic").as_deref(), Some("grain.out"));
 }
-
-#[test]
-fn a_double_click_bends_a_wire_where_it_was() {
-    let mut window = by_keys();
-    let ends = ["Output out of Enamel over rust", "Input base_color of Surface"].map(|label| center(&window, label));
-    let at = ends[0] + (ends[1] - ends[0]) * 0.5;
-    go(&mut window, at);
-    for pressed in [true, false, true, false] {
-        press(&mut window, at, pressed, NONE);
-    }
-    window.run_steps(3);
-    let dot = window.get_by_label("Node Reroute").rect().center();
-    assert!(dot.distance(at) < 3.0, "{dot:?} instead of {at:?}");
-    assert_eq!(source(&window, "surface", "base_color").as_deref(), Some("reroute.out"));
-}

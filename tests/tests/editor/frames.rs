@@ -200,7 +200,7 @@ fn a_frame_and_a_comment_come_where_the_pointer_is() {
             window.step();
         }
         window.run_steps(2);
-        window.get_by_label(entry).click();
+        window.get_by_label_contains(entry).click();
         window.run_steps(3);
         go(&mut window, at);
         key(&mut window, NONE, egui::Key::Escape);
