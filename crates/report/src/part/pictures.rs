@@ -249,6 +249,9 @@ struct Example {
     report: View,
 }
 
+/// A view, its row, and what it is held against, with that one's noise.
+type Held<'a> = (&'a View, Row, &'a [[f64; 3]], Option<&'a [[f64; 3]]>);
+
 impl Example {
     /// Else why the example cannot be read or has no truth.
     fn prepared(path: &Path, station: Option<&Station>, kept: &Kept, effort: Effort) -> Result<Example, String> {
@@ -305,7 +308,7 @@ impl Example {
         let preset = self.row("preset report", "", "the picture with the default methods");
         let default = drawn(self.defaults.as_ref().unwrap_or(&self.specialised));
         let specialised = drawn(&self.specialised);
-        let views: [(&View, Row, &[[f64; 3]], Option<&[[f64; 3]]>); 3] = [
+        let views: [Held<'_>; 3] = [
             (&self.specialised, self.row("gpu", "", against), &self.truth, noise),
             (&self.unspecialised, unspecialised, &specialised, None),
             (&self.report, preset, &default, None),

@@ -58,6 +58,9 @@ struct Subject {
     scene: Scene,
 }
 
+/// The device's shortest time of a pass [s], and how much longer the one in the middle took.
+type DeviceTime = (f64, Option<f64>);
+
 /// Measures the part.
 pub fn rows(run: &Run<'_>) -> Vec<Row> {
     let subjects = subjects();
@@ -69,7 +72,7 @@ pub fn rows(run: &Run<'_>) -> Vec<Row> {
         run.leave_out("shaders", Some(DEVICE), NO_DEVICE.to_owned());
         return rows;
     };
-    let timed = |times: Vec<Option<(f64, Option<f64>)>>| -> Vec<Row> {
+    let timed = |times: Vec<Option<DeviceTime>>| -> Vec<Row> {
         let mut rows = rows.clone();
         for (row, time) in rows.iter_mut().zip(times) {
             let Some((shortest, spread)) = time else { continue };
@@ -316,8 +319,8 @@ fn device_times<'s>(
     stations: &[Option<Station>],
     subjects: &'s [Subject],
     run: &Run<'_>,
-    told: &dyn Fn(Vec<Option<(f64, Option<f64>)>>, f64),
-) -> Vec<Option<(f64, Option<f64>)>> {
+    told: &dyn Fn(Vec<Option<DeviceTime>>, f64),
+) -> Vec<Option<DeviceTime>> {
     let environment = studio();
     let mut baked: Vec<(BakeOptions, Arc<BakedEnvironment>)> = Vec::new();
     let mut light = |scene: &Scene| {
@@ -367,7 +370,7 @@ fn device_times<'s>(
 }
 
 /// Of each subject the shortest time of its sittings, and how much longer the one in the middle took.
-fn of_subjects(places: &[Option<usize>], times: &[Vec<f64>]) -> Vec<Option<(f64, Option<f64>)>> {
+fn of_subjects(places: &[Option<usize>], times: &[Vec<f64>]) -> Vec<Option<DeviceTime>> {
     let found = |place: &Option<usize>| {
         let times = &times[(*place)?];
         let shortest = times.iter().copied().min_by(f64::total_cmp)?;
