@@ -197,7 +197,7 @@ fn mistakes_are_told_in_the_users_words() {
             26,
         ),
         (
-            "return h(x);",
+            "return x;",
             "fn h(a: f32) { let b = a; return b; }\n",
             "`h` gives nothing; write `-> f32`",
             "fn h(a: f32) { let b = a; return b; }",
