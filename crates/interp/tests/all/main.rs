@@ -1,5 +1,6 @@
 //! Tests of the interpreter that need neither a device nor another crate of ours.
 
+mod builtins;
 mod constants;
 mod derivatives;
 mod elementary;
