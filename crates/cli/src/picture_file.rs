@@ -34,6 +34,9 @@ pub(crate) enum PictureFormat {
 /// Where an .exr file holds the standard errors of red, green and blue.
 const ERROR_CHANNELS: [&str; 3] = ["error.R", "error.G", "error.B"];
 
+/// Where it says what the noise was drawn with: a text, the number.
+const SEED: &str = "halfvector.seed";
+
 /// Reads a file name by its extension.
 pub(crate) fn parse_picture_file(text: &str) -> Result<PictureFile, String> {
     let path = PathBuf::from(text);
@@ -47,19 +50,20 @@ pub(crate) fn parse_picture_file(text: &str) -> Result<PictureFile, String> {
     Ok(PictureFile { path, format })
 }
 
-/// Writes a picture in the file's format. The standard error of each pixel stands in an .exr beside it, in the channels
-/// `error.R`, `error.G` and `error.B`; other formats have no place for it.
+/// Writes a picture in the file's format. Of a noisy one the standard error of each pixel stands in an .exr beside it, in the
+/// channels `error.R`, `error.G` and `error.B`, and the seed in the attribute `halfvector.seed`; other formats have no place for
+/// them.
 pub(crate) fn write(
     file: &PictureFile,
     picture: &Picture,
-    error: Option<&[[f32; 3]]>,
+    noise: Option<(&[[f32; 3]], u64)>,
     display: Display,
 ) -> Result<(), Failure> {
-    let bytes = match (file.format, error) {
+    let bytes = match (file.format, noise) {
         (PictureFormat::Png, _) => png(picture, display),
         (PictureFormat::Exr, None) => exr(picture),
-        (PictureFormat::Exr, Some(error)) => {
-            let bytes = exr_with_error(picture, error);
+        (PictureFormat::Exr, Some((error, seed))) => {
+            let bytes = exr_with_error(picture, error, seed);
             let bytes = bytes.map_err(|error| encoding_failed(&file.path, &error))?;
             return write_file(&file.path, &bytes);
         }
@@ -101,7 +105,7 @@ fn exr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
     Ok(bytes.into_inner())
 }
 
-fn exr_with_error(picture: &Picture, error: &[[f32; 3]]) -> Result<Vec<u8>, exr::error::Error> {
+fn exr_with_error(picture: &Picture, error: &[[f32; 3]], seed: u64) -> Result<Vec<u8>, exr::error::Error> {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let channels = SpecificChannels::build().with_channel("R").with_channel("G").with_channel("B").with_channel("A");
     let [of_r, of_g, of_b] = ERROR_CHANNELS;
@@ -111,12 +115,42 @@ fn exr_with_error(picture: &Picture, error: &[[f32; 3]]) -> Result<Vec<u8>, exr:
         (r, g, b, a, dr, dg, db)
     });
     let mut bytes = std::io::Cursor::new(Vec::new());
-    exr::image::Image::from_channels((width, height), channels).write().to_buffered(&mut bytes)?;
+    let mut image = exr::image::Image::from_channels((width, height), channels);
+    let seed = exr::meta::attribute::AttributeValue::Text(seed.to_string().as_str().into());
+    image.layer_data.attributes.other.insert(SEED.into(), seed);
+    image.write().to_buffered(&mut bytes)?;
     Ok(bytes.into_inner())
 }
 
-/// The standard errors of an .exr file's pixels, when all are there and finite.
-pub(crate) fn standard_errors(path: &Path) -> Option<Vec<[f64; 3]>> {
+/// What an .exr file says of the noise of its picture.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Noise {
+    /// The standard errors of each pixel's red, green and blue.
+    pub(crate) errors: Vec<[f64; 3]>,
+    /// What the noise was drawn with.
+    pub(crate) seed: Option<u64>,
+}
+
+/// What an .exr file says of its noise; none where it has no channel for that.
+///
+/// # Errors
+/// Why what it says is not to be used: channels that are missing, or hold what no standard error is.
+pub(crate) fn noise(path: &Path) -> Result<Option<Noise>, String> {
+    let meta = exr::meta::MetaData::read_from_file(path, false).map_err(|error| error.to_string())?;
+    let has = |header: &exr::meta::header::Header, name: &str| {
+        header.channels.list.iter().any(|channel| channel.name == *name)
+    };
+    let Some(header) = meta.headers.iter().find(|header| ERROR_CHANNELS.iter().any(|name| has(header, name))) else {
+        return Ok(None);
+    };
+    let missing: Vec<&str> = ERROR_CHANNELS.into_iter().filter(|name| !has(header, name)).collect();
+    if !missing.is_empty() {
+        return Err(format!("it has standard errors, but no channel {}", missing.join(", ")));
+    }
+    let seed = match header.own_attributes.other.get(&exr::meta::attribute::Text::from(SEED)) {
+        Some(exr::meta::attribute::AttributeValue::Text(text)) => text.to_string().parse().ok(),
+        _ => None,
+    };
     let [of_r, of_g, of_b] = ERROR_CHANNELS;
     let channels = exr::image::read::read().no_deep_data().largest_resolution_level().specific_channels();
     let pixels = channels.required(of_r).required(of_g).required(of_b).collect_pixels(
@@ -125,9 +159,17 @@ pub(crate) fn standard_errors(path: &Path) -> Option<Vec<[f64; 3]>> {
             all[place.y() * *width + place.x()] = [r, g, b].map(f64::from);
         },
     );
-    let image = pixels.first_valid_layer().all_attributes().from_file(path).ok()?;
-    let (_, errors) = image.layer_data.channel_data.pixels;
-    errors.as_flattened().iter().all(|x| x.is_finite() && *x >= 0.0).then_some(errors)
+    let image = pixels.first_valid_layer().all_attributes().from_file(path).map_err(|error| error.to_string())?;
+    let (width, errors) = image.layer_data.channel_data.pixels;
+    let is_wrong = |error: &[f64; 3]| !error.iter().all(|x| x.is_finite() && *x >= 0.0);
+    if let Some(at) = errors.iter().position(is_wrong) {
+        return Err(format!(
+            "its standard errors are not all numbers from 0: the first that is none is at column {}, row {}",
+            at % width.max(1),
+            at / width.max(1)
+        ));
+    }
+    Ok(Some(Noise { errors, seed }))
 }
 
 fn hdr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
@@ -166,13 +208,33 @@ mod tests {
         let error = [[0.1, 0.2, 0.3], [4.0, 0.0, 6.0]];
         let folder = tempfile::tempdir().expect("a folder");
         let [with, without] = ["with.exr", "without.exr"].map(|name| folder.path().join(name));
-        let bytes = exr_with_error(&picture, &error).expect("coded");
+        let bytes = exr_with_error(&picture, &error, u64::MAX).expect("coded");
         std::fs::write(&with, &bytes).expect("written");
         std::fs::write(&without, exr(&picture).expect("coded")).expect("written");
         let colors = image::load_from_memory(&bytes).expect("readable").into_rgba32f();
         assert_eq!(colors.as_raw().as_slice(), picture.pixels.as_flattened());
-        assert_eq!(standard_errors(&with), Some(error.map(|e| e.map(f64::from)).to_vec()));
-        assert_eq!(standard_errors(&without), None);
+        let errors = error.map(|e| e.map(f64::from)).to_vec();
+        assert_eq!(noise(&with), Ok(Some(Noise { errors, seed: Some(u64::MAX) })));
+        assert_eq!(noise(&without), Ok(None));
+    }
+
+    #[test]
+    fn broken_standard_errors_are_told() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("wrong.exr");
+        let picture = Picture { width: 2, height: 1, pixels: vec![[1.0; 4]; 2] };
+        for wrong in [f32::NAN, -1.0, f32::INFINITY] {
+            let error = [[0.1; 3], [0.1, wrong, 0.1]];
+            std::fs::write(&path, exr_with_error(&picture, &error, 1).expect("coded")).expect("written");
+            let why = noise(&path).expect_err("told");
+            assert!(why.contains("column 1, row 0"), "{why}");
+        }
+        let channels = SpecificChannels::build().with_channel("R").with_channel("G").with_channel("B");
+        let channels = channels.with_channel("error.R").with_pixel_fn(|_| (1.0_f32, 1.0_f32, 1.0_f32, 0.1_f32));
+        let image = exr::image::Image::from_channels((2, 1), channels);
+        image.write().to_file(&path).expect("written");
+        let why = noise(&path).expect_err("told");
+        assert!(why.contains("error.G, error.B") && !why.contains("error.R"), "{why}");
     }
 
     #[test]

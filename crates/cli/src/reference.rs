@@ -64,7 +64,7 @@ pub(crate) fn draw(scene: &Scene, options: ReferenceOptions, output: &PictureFil
     let pixels = picture.pixels.iter().map(|pixel| pixel.map(|x| x as f32)).collect();
     let display = Display::ToneMapped { exposure: scene.exposure.factor(), tone_map: scene.tone_map };
     let error: Vec<[f32; 3]> = picture.standard_error.iter().map(|error| error.map(|x| x as f32)).collect();
-    write(output, &Picture { width, height, pixels }, Some(&error), display)?;
+    write(output, &Picture { width, height, pixels }, Some((&error, seed)), display)?;
     note(format_args!("{}: {width} x {height}, drawn by the reference", output.path.display()));
     Ok(())
 }

@@ -8,7 +8,7 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use crate::failure::Failure;
 use crate::output::{check_place, note, print, print_json, write_file};
-use crate::picture_file::{PictureFormat, parse_picture_file, standard_errors};
+use crate::picture_file::{Noise, PictureFormat, noise, parse_picture_file};
 
 /// Says how different a picture is from a reference: FLIP, root mean square, relative error.
 ///
@@ -17,7 +17,11 @@ use crate::picture_file::{PictureFormat, parse_picture_file, standard_errors};
 /// anything (2021). RMSE and relative error are of the numbers in the files: sRGB codes over 255, or radiance.
 ///
 /// An .exr of --backend reference holds the standard error of each pixel: what noise adds is then taken off RMSE and relative
-/// error, and it is said what FLIP such noise alone has: a mean no larger than that shows no difference.
+/// error, and it is said what FLIP such noise alone has: a mean no larger than that shows no difference. Two of the same --seed
+/// have noise in common; nothing is taken off then, and it is said.
+///
+/// FLIP of radiance looks at negative numbers as black, as a display shows them. (NVIDIA's program sends them through its tone
+/// curve, where large ones become white.) Largest, RMSE and relative error count them as they are.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Example:
   halfvector compare mine.exr reference.exr -o difference.png --format json")]
@@ -28,7 +32,7 @@ pub(crate) struct CompareArgs {
     /// What it is compared with: the same kind of file, of the same size
     #[arg(value_name = "B")]
     reference: PathBuf,
-    /// Writes FLIP of each pixel as a .png: black for none, over purple and orange, to pale yellow for 1
+    /// Writes FLIP of each pixel as a .png: black for none, over purple and orange, to pale yellow for 1. Missing folders are made
     #[arg(short, long, value_name = "HEATMAP")]
     output: Option<PathBuf>,
     /// How the figures are written
@@ -53,7 +57,7 @@ struct Pixels {
     numbers: Vec<[f64; 3]>,
     alpha: Vec<f64>,
     /// Standard error of each number, where the file has it.
-    error: Option<Vec<[f64; 3]>>,
+    noise: Option<Noise>,
     /// Whether they are sRGB codes over 255.
     displayed: bool,
 }
@@ -96,7 +100,23 @@ pub(crate) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     } else {
         flip_hdr(&reference.numbers, &test.numbers, test.width, FlipOptions::default())
     };
-    let noise = combined(&test, &reference);
+    let shared_seed = shared_seed(&test, &reference);
+    if let Some(seed) = shared_seed {
+        note(format_args!(
+            "note: both pictures were drawn with --seed {seed}: their noise is not independent, and nothing is taken off; draw one \
+             with another seed"
+        ));
+    }
+    for (path, pixels) in [(&args.picture, &test), (&args.reference, &reference)] {
+        let negative = pixels.numbers.as_flattened().iter().filter(|x| **x < 0.0).count();
+        if negative > 0 {
+            note(format_args!(
+                "note: {}: {negative} numbers are negative; FLIP looks at them as black",
+                path.display()
+            ));
+        }
+    }
+    let noise = if shared_seed.is_some() { None } else { combined(&test, &reference) };
     let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len() as f64;
     let flip = Flip {
         kind: if test.displayed { "ldr" } else { "hdr" },
@@ -110,6 +130,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<u8, Failure> {
         difference: difference(&test.numbers, &reference.numbers, noise.as_deref()),
         is_black: reference.numbers.as_flattened().iter().sum::<f64>() <= 0.0,
         noise: noise.map(|noise| rms(noise.as_flattened())),
+        shared_seed,
         alpha: AlphaDifference::of(&test.alpha, &reference.alpha),
     };
     if let Some(path) = &args.output {
@@ -139,6 +160,8 @@ struct Numbers {
     is_black: bool,
     /// Root mean square of the standard errors of the difference.
     noise: Option<f64>,
+    /// What both pictures' noise was drawn with, where that is the same.
+    shared_seed: Option<u64>,
     alpha: AlphaDifference,
 }
 
@@ -159,11 +182,18 @@ impl AlphaDifference {
     }
 }
 
-/// The standard error of the difference of two pictures, as far as their files know it.
+/// The seed of two noisy pictures, when it is the same.
+fn shared_seed(test: &Pixels, reference: &Pixels) -> Option<u64> {
+    let seed = |pixels: &Pixels| pixels.noise.as_ref().and_then(|noise| noise.seed);
+    seed(test).filter(|of_test| seed(reference) == Some(*of_test))
+}
+
+/// The standard error of the difference of two pictures of independent noise, as far as their files know it.
 fn combined(test: &Pixels, reference: &Pixels) -> Option<Vec<[f64; 3]>> {
-    match (&test.error, &reference.error) {
-        (Some(a), Some(b)) => Some(a.iter().zip(b).map(|(a, b)| std::array::from_fn(|c| a[c].hypot(b[c]))).collect()),
-        (one, other) => one.as_ref().or(other.as_ref()).cloned(),
+    let errors = |pixels: &Pixels| pixels.noise.as_ref().map(|noise| noise.errors.clone());
+    match (errors(test), errors(reference)) {
+        (Some(a), Some(b)) => Some(a.iter().zip(&b).map(|(a, b)| std::array::from_fn(|c| a[c].hypot(b[c]))).collect()),
+        (one, other) => one.or(other),
     }
 }
 
@@ -173,13 +203,12 @@ fn rms(numbers: &[f64]) -> f64 {
 
 fn text(flip: &Flip, numbers: &Numbers) -> String {
     let Difference { rmse, relative, mean_relative, largest } = numbers.difference;
-    let mean = if numbers.is_black {
-        "none: the reference is black".into()
-    } else {
-        format!("{:+.4} %", 100.0 * mean_relative)
-    };
+    let relative_to_light =
+        |text: String| if numbers.is_black { "none: the reference is black".to_owned() } else { text };
+    let mean = relative_to_light(format!("{:+.4} %", 100.0 * mean_relative));
+    let relative = relative_to_light(format!("{relative:.6e}"));
     let mut text = format!(
-        "FLIP ({})       mean {:.6}  largest {:.6}\nRMSE             {rmse:.6e}\nrelative error   {relative:.6e}\nmean difference  \
+        "FLIP ({})       mean {:.6}  largest {:.6}\nRMSE             {rmse:.6e}\nrelative error   {relative}\nmean difference  \
          {mean}\nlargest          {largest:.6e}",
         flip.kind.to_uppercase(),
         flip.mean,
@@ -206,10 +235,11 @@ fn json(flip: &Flip, numbers: &Numbers, pixels: &Pixels) -> serde_json::Value {
         "height": pixels.height,
         "flip": {"kind": flip.kind, "mean": flip.mean, "largest": flip.largest, "of_noise": flip.of_noise},
         "rmse": rmse,
-        "relative": relative,
+        "relative": (!numbers.is_black).then_some(relative),
         "mean_relative": (!numbers.is_black).then_some(mean_relative),
         "largest": largest,
         "standard_error": numbers.noise,
+        "shared_seed": numbers.shared_seed,
         "alpha": {"pixels": numbers.alpha.pixels, "largest": numbers.alpha.largest},
     })
 }
@@ -239,9 +269,19 @@ fn read(path: &Path) -> Result<Pixels, Failure> {
             .because(format!("the first is at column {}, row {}", i % width, i / width))
             .try_to("another picture"));
     }
-    let error = if format == PictureFormat::Exr { standard_errors(path) } else { None };
-    let error = error.filter(|error| error.len() == numbers.len());
-    Ok(Pixels { width, height, numbers, alpha, error, displayed })
+    let noise = if format == PictureFormat::Exr { noise(path) } else { Ok(None) };
+    let fits = |noise: Option<Noise>| match noise {
+        Some(noise) if noise.errors.len() != numbers.len() => {
+            Err("its standard errors are of a picture of another size".to_owned())
+        }
+        noise => Ok(noise),
+    };
+    let noise = noise.and_then(fits).map_err(|why| {
+        Failure::input("the noise of a picture could not be read").at(path).because(why).try_to(
+            "the file as --backend reference writes it, or one without the channels error.R, error.G and error.B",
+        )
+    })?;
+    Ok(Pixels { width, height, numbers, alpha, noise, displayed })
 }
 
 fn heat_map(errors: &[f64], width: usize, path: &Path) -> Result<Vec<u8>, Failure> {

@@ -53,6 +53,22 @@ fn noise_that_is_known_is_no_difference() {
     assert!(text.contains("taken off RMSE") && text.contains("FLIP of noise"), "{text}");
 }
 
+/// Two estimates of one seed have most of their noise in common: what they differ by is no sum of two noises.
+#[test]
+fn shared_noise_is_not_taken_off() {
+    let folder = Folder::new();
+    for (name, roughness) in [("a.exr", "0.4"), ("b.exr", "0.45")] {
+        let plain = ["render", "plain.material.json", "--backend", "reference", "--size", "16x16", "--samples", "16"];
+        let set = format!("perceptual_roughness={roughness}");
+        folder.run(&[&plain[..], &["--seed", "7", "--set", &set, "-o", name]].concat()).ends(0);
+    }
+    let run = folder.run(&["compare", "a.exr", "b.exr", "--format", "json"]).ends(0).says("--seed 7");
+    let json = run.json();
+    assert_eq!(json["shared_seed"], 7);
+    assert!(json["standard_error"].is_null() && json["rmse"].as_f64() > Some(0.0), "{json}");
+    assert!(json["flip"]["of_noise"].is_null(), "{json}");
+}
+
 #[test]
 fn alpha_and_a_black_reference_are_told() {
     let folder = Folder::new();
@@ -60,10 +76,11 @@ fn alpha_and_a_black_reference_are_told() {
     png(&folder, "clear.png", [12, 8], [0, 0, 0, 0]);
     let run = folder.run(&["compare", "clear.png", "black.png", "--format", "json"]).ends(0).json();
     assert_eq!((run["alpha"]["pixels"].as_u64(), run["alpha"]["largest"].as_f64()), (Some(96), Some(1.0)), "{run}");
-    assert!(run["mean_relative"].is_null() && run["standard_error"].is_null(), "{run}");
+    assert!(run["mean_relative"].is_null() && run["relative"].is_null() && run["standard_error"].is_null(), "{run}");
     let text = folder.run(&["compare", "clear.png", "black.png"]).ends(0).stdout;
     assert!(
-        text.contains("the reference is black") && text.contains("alpha            differs in 96 pixels"),
+        text.contains("relative error   none: the reference is black")
+            && text.contains("alpha            differs in 96 pixels"),
         "{text}"
     );
 }
@@ -82,4 +99,9 @@ fn what_cannot_be_compared() {
     folder.run(&["compare", "a.png", "plain.material.json"]).ends(1).says(".png, .exr or .hdr");
     folder.run(&["compare", "a.png", "a.png", "-o", "heat.exr"]).ends(2).says(".png");
     folder.run(&["compare", "a.png"]).ends(2);
+    // Folders are made as other commands make them.
+    folder.run(&["compare", "a.png", "a.png", "-o", "new/heat.png"]).ends(0);
+    assert!(folder.path("new/heat.png").is_file());
+    exr(&folder, "negative.exr", [-1.0; 3]);
+    folder.run(&["compare", "negative.exr", "c.exr"]).ends(0).says("288 numbers are negative");
 }

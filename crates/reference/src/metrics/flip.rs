@@ -77,7 +77,9 @@ pub fn flip_ldr(reference: &[[f64; 3]], test: &[[f64; 3]], width: usize, options
 }
 
 /// FLIP of two pictures of linear radiance: the largest of the errors at exposures from where the reference's brightest
-/// pixel is just shown to where its median is, one stop apart at most. A black reference is looked at as it is.
+/// pixel is just shown to where its median is, one stop apart at most. A black reference is looked at as it is, and so are
+/// negative numbers: as black. The authors' program (v1.4) puts them through the tone curve, whose squares make large ones white, and
+/// takes them into the median.
 pub fn flip_hdr(reference: &[[f64; 3]], test: &[[f64; 3]], width: usize, options: FlipOptions) -> Vec<f64> {
     let mut largest = vec![0.0_f64; reference.len().min(test.len())];
     for stops in exposures(reference) {
