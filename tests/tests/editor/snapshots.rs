@@ -111,7 +111,9 @@ fn every_character_is_in_the_fonts() {
         characters(&root().join(place), &mut found);
     }
     // Labels and problems come from the graph, which writes them as escapes.
-    for file in ["check.rs", "flatten.rs", "file/instance.rs", "operation/wire.rs", "operation/collapse.rs"] {
+    for file in
+        ["check.rs", "flatten.rs", "check/words.rs", "file/instance.rs", "operation/wire.rs", "operation/collapse.rs"]
+    {
         let path = root().join("crates/graph/src").join(file);
         let text = std::fs::read_to_string(&path).expect("text");
         for rest in text.split("\\u{").skip(1) {

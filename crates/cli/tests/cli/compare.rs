@@ -57,10 +57,9 @@ fn noise_that_is_known_is_no_difference() {
 #[test]
 fn shared_noise_is_not_taken_off() {
     let folder = Folder::new();
-    for (name, roughness) in [("a.exr", "0.4"), ("b.exr", "0.45")] {
+    for (name, light) in [("a.exr", "point:2,2,2:100"), ("b.exr", "point:2,2,2:110")] {
         let plain = ["render", "plain.material.json", "--backend", "reference", "--size", "16x16", "--samples", "16"];
-        let set = format!("perceptual_roughness={roughness}");
-        folder.run(&[&plain[..], &["--seed", "7", "--set", &set, "-o", name]].concat()).ends(0);
+        folder.run(&[&plain[..], &["--seed", "7", "--light", light, "-o", name]].concat()).ends(0);
     }
     let run = folder.run(&["compare", "a.exr", "b.exr", "--format", "json"]).ends(0).says("--seed 7");
     let json = run.json();

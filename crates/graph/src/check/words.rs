@@ -16,7 +16,7 @@ pub(crate) fn ring(labels: &[String]) -> String {
         text.push(format!("{} more", labels.len() - SHOWN));
     }
     text.extend(text.first().cloned());
-    text.join(" \u{2192} ")
+    text.join(" -> ")
 }
 
 /// What a socket takes.

@@ -97,7 +97,7 @@ pub enum InstanceError {
         source: Box<FileError>,
     },
     /// Instances of each other.
-    #[error("it is an instance of itself, by way of {}; one of them needs a base that is a whole material", files.join(" \u{2192} "))]
+    #[error("it is an instance of itself, by way of {}; one of them needs a base that is a whole material", files.join(" -> "))]
     Cycle {
         /// The files, from this one to this one.
         files: Vec<String>,

@@ -128,7 +128,7 @@ fn rings_name_their_nodes() {
         &d,
         Severity::Error,
         "b",
-        "\u{201c}Bee\u{201d} \u{2192} \u{201c}Mix\u{201d} \u{2192} \u{201c}Mix\u{201d} \u{2192} \u{201c}Bee\u{201d}",
+        "\u{201c}Bee\u{201d} -> \u{201c}Mix\u{201d} -> \u{201c}Mix\u{201d} -> \u{201c}Bee\u{201d}",
     );
     let d = document(&nodes, &[("a.out", "a.b"), ("a.out", "surface.height")]);
     one(&d, Severity::Error, "a", "feeds itself");

@@ -152,7 +152,7 @@ fn groups_that_hold_themselves_are_refused_by_name() {
     told(
         &d,
         Severity::Error,
-        "the groups hold each other in a ring: \u{201c}band\u{201d} \u{2192} \u{201c}p\u{201d} \u{2192} \u{201c}q\u{201d} \u{2192} \u{201c}band\u{201d}",
+        "the groups hold each other in a ring: \u{201c}band\u{201d} -> \u{201c}p\u{201d} -> \u{201c}q\u{201d} -> \u{201c}band\u{201d}",
     );
     assert!(matches!(flatten(&d, small()), Err(FlattenError::Recursion(_))));
 }

@@ -37,7 +37,10 @@ pub(super) fn show(
     let mut area = egui::ScrollArea::both().auto_shrink(false);
     let is_wanted =
         |line: &Line| matches!(&line.origin, Some(Origin::Node(id)) if wanted.is_some() && is_selected(session, id));
-    if let Some(first) = wanted.and_then(|_| code.lines.iter().position(is_wanted)) {
+    // Where the node is computed; the declaration of its parameter, which stands above, where it is nothing else.
+    let computes = |line: &Line| is_wanted(line) && code.text[line.bytes.clone()].contains('=');
+    let first = || code.lines.iter().position(computes).or_else(|| code.lines.iter().position(is_wanted));
+    if let Some(first) = wanted.and_then(|_| first()) {
         area = area.vertical_scroll_offset((first as f32 - 3.0).max(0.0) * height);
     }
     area.show_rows(ui, height, code.lines.len(), |ui, rows| {
