@@ -44,6 +44,7 @@ mod shape;
 mod simplify;
 mod texture;
 mod uniform;
+mod watch;
 
 pub use error::{Place, RunError, Unsupported};
 pub use half::Half;
@@ -53,3 +54,4 @@ pub use program::{Entry, Program, Slot};
 pub use real::Float;
 pub use resource::{Column, Derivatives, Limits, OutputColumn, Outputs, Resources};
 pub use texture::{Address, Filter, Level, LevelRule, Sampler, Shape, Texture, TextureError};
+pub use watch::Watch;

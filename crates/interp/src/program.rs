@@ -6,11 +6,12 @@ use naga::{Binding, Module, Scalar, ShaderStage, Type, TypeInner};
 use crate::allocate::{FileSize, allocate};
 use crate::code::Code;
 use crate::error::{Place, RunError, Unsupported};
-use crate::ir::{BufferAccess, Ir, NONE, Op, Resource, TextureRead};
+use crate::ir::{BufferAccess, Class, Ir, NONE, Op, Resource, TextureRead};
 use crate::lower::Lower;
 use crate::machine::Machine;
 use crate::real::Float;
 use crate::resource::{Column, Derivatives, Limits, Outputs, Resources};
+use crate::watch::{self, Watch};
 use crate::{emit, shape, simplify, uniform};
 
 /// What of a module is compiled.
@@ -59,6 +60,29 @@ impl Program {
     /// # Errors
     /// What the interpreter does not do, by name and place, before anything runs.
     pub fn compile(module: &Module, info: &ModuleInfo, entry: Entry<'_>) -> Result<Program, Unsupported> {
+        Program::made(module, info, entry, false).map(|(program, _)| program)
+    }
+
+    /// The same with further outputs behind the result's: the numbers by which the program decides and those at whose 0 it may
+    /// have poles, in the order in which it computes them, at most 4096. Each is what it was when it was computed last, and
+    /// NaN in invocations that did not.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn compile_watched(
+        module: &Module,
+        info: &ModuleInfo,
+        entry: Entry<'_>,
+    ) -> Result<(Program, Vec<Watch>), Unsupported> {
+        Program::made(module, info, entry, true)
+    }
+
+    fn made(
+        module: &Module,
+        info: &ModuleInfo,
+        entry: Entry<'_>,
+        is_watched: bool,
+    ) -> Result<(Program, Vec<Watch>), Unsupported> {
         let (function, function_info, name) = match entry {
             Entry::Function(name) => {
                 let found = module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(name));
@@ -93,6 +117,12 @@ impl Program {
             slots(module, &module.types[result.ty], String::new(), result.binding.as_ref(), &mut outputs);
         }
         simplify::simplify(&mut ir);
+        let result = ir.outputs.len();
+        let watches = if is_watched { watch::watch(&mut ir) } else { Vec::new() };
+        for (number, reg) in ir.outputs[result..].iter().enumerate() {
+            let scalar = if ir.registers[*reg as usize].class == Class::Double { Scalar::F64 } else { Scalar::F32 };
+            outputs.push(Slot { name: format!("watch[{number}]"), scalar, binding: None });
+        }
         let varying = uniform::varying_registers(&mut ir);
         let mut flat = emit::flatten(&ir, &varying);
         let allocation = allocate(&ir, &mut flat, &varying);
@@ -108,7 +138,7 @@ impl Program {
         let tables = (0..ir.tables.len() as u32).map(|t| ir.table(t).iter().map(|r| place(*r)).collect()).collect();
         let derives = flat.code.iter().any(|c| matches!(c, Code::Step(s) if matches!(s.op, Op::Derivative { .. })));
         let Ir { accesses, buffers, textures, samplers, sites, .. } = ir;
-        Ok(Program {
+        let program = Program {
             inputs,
             outputs,
             input_places: ir.inputs.iter().map(|r| place(*r)).collect(),
@@ -124,7 +154,8 @@ impl Program {
             sites,
             slots: flat.slots,
             derives,
-        })
+        };
+        Ok((program, watches))
     }
 
     /// The scalars of the arguments, in order: one input column each.

@@ -11,3 +11,4 @@ mod storage;
 mod support;
 mod textures;
 mod values;
+mod watch;

@@ -170,6 +170,14 @@ impl Input {
         self.number == Number::Float
     }
 
+    /// How far it may move: its range, or that of a component of a direction; none where it stays.
+    pub(super) fn span(&self) -> Option<f64> {
+        match self.source {
+            Source::Frame { .. } => Some(2.0),
+            _ => self.range().map(|[from, to]| to - from).filter(|_| self.is_float()),
+        }
+    }
+
     fn is_parameter(&self) -> bool {
         matches!(self.source, Source::Parameter { .. })
     }
@@ -229,6 +237,12 @@ impl Points {
         all
     }
 
+    /// Some of them.
+    pub(super) fn of_numbers(&self, numbers: &[usize]) -> Points {
+        let columns = self.columns.iter().map(|column| numbers.iter().map(|number| column[*number]).collect());
+        Points { columns: columns.collect(), count: numbers.len() }
+    }
+
     /// One of them.
     pub(super) fn point(&self, number: usize) -> Vec<f64> {
         self.columns.iter().map(|column| column[number]).collect()
@@ -268,24 +282,40 @@ fn points(inputs: &[Input], precision: Precision, setting: usize, random: &mut R
     Points { columns, count: POINTS }
 }
 
-/// The point halfway between two. Where they differ in a direction the frame is made straight again.
+/// The point halfway between two.
 pub(super) fn between(inputs: &[Input], a: &[f64], b: &[f64]) -> Vec<f64> {
-    let mut middle: Vec<f64> = a.iter().zip(b).map(|(a, b)| if a == b { *a } else { 0.5 * (a + b) }).collect();
-    let turns = |(i, input): (usize, &Input)| matches!(input.source, Source::Frame { .. }) && a[i] != b[i];
-    if inputs.iter().enumerate().any(turns) {
+    on_the_way(inputs, a, b, 0.5)
+}
+
+/// The point at a part of the way from one to another. Where they differ in a direction the frame is made straight again.
+pub(super) fn on_the_way(inputs: &[Input], a: &[f64], b: &[f64], part: f64) -> Vec<f64> {
+    let at = |(a, b): (&f64, &f64)| if a == b { *a } else { a * (1.0 - part) + b * part };
+    settled(inputs, a, a.iter().zip(b).map(at).collect())
+}
+
+/// A point that was moved away from another one: with its numbers within their ranges, and its frame straight if that was turned.
+pub(super) fn settled(inputs: &[Input], from: &[f64], mut to: Vec<f64>) -> Vec<f64> {
+    let mut turns = false;
+    for ((input, from), to) in inputs.iter().zip(from).zip(&mut to) {
+        if let Some([low, high]) = input.range() {
+            *to = to.clamp(low, high);
+        }
+        turns |= matches!(input.source, Source::Frame { .. }) && from != to;
+    }
+    if turns {
         // A normal that the material does not read is 0: no tangent is held across it.
         let mut frame = [[0.0; 3]; 3];
-        for (input, x) in inputs.iter().zip(&middle) {
+        for (input, x) in inputs.iter().zip(&to) {
             if let Source::Frame { vector, component } = input.source {
                 frame[vector][component] = *x;
             }
         }
         let Frame(frame) = Frame(frame).straight();
-        for (input, x) in inputs.iter().zip(&mut middle) {
+        for (input, x) in inputs.iter().zip(&mut to) {
             if let Source::Frame { vector, component } = input.source {
                 *x = frame[vector][component];
             }
         }
     }
-    middle
+    to
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use halfvector_graph::document::NodeId;
 
 use crate::stability::StabilityError;
-use crate::stability::domain::{Input, POINTS, Points, Precision, Random, Source, between};
+use crate::stability::domain::{Input, POINTS, Points, Precision, Random, Source, between, settled};
 use crate::stability::trace::Trace;
 use crate::stability::wiring::Wiring;
 
@@ -27,6 +27,16 @@ const PAIRS: usize = 6;
 
 /// How often the way between two neighbours is halved at most: until it is about as short as f64 has it.
 const HALVINGS: usize = 44;
+
+/// The least jump that is told where something is known to be decided, of the output's value or rms: 168 units of the last place
+/// of f32.
+const LEAST: f64 = 1e-5;
+
+/// Places of a run.
+const SIDES: usize = 128;
+
+/// How much farther apart two points are taken to tell a jump from a slope.
+const WIDER: f64 = 16.0;
 
 /// How many times the tolerance an output changes between two numbers of the precision next to each other when that counts as a jump,
 /// however it does it; a smaller change has to be a jump in exact arithmetic.
@@ -142,8 +152,49 @@ pub(super) fn search(
     Ok(jumps)
 }
 
+/// The jumps of the outputs where something is decided: the largest of each, and none of a node that is fed by a node with one.
+/// `sides`: both sides of such places. `found`: jumps that are known.
+pub(super) fn decided(
+    trace: &Trace<'_>,
+    wiring: &Wiring<'_>,
+    sides: &[[Vec<f64>; 2]],
+    rms: &[f64],
+    mut found: Vec<Jump>,
+) -> Result<Vec<Jump>, StabilityError> {
+    let inputs = &trace.inputs;
+    let mut largest: Vec<Option<Jump>> = vec![None; rms.len()];
+    for sides in sides.chunks(SIDES) {
+        // As far apart as they are, and wider.
+        let wider = |[a, b]: &[Vec<f64>; 2]| {
+            let moved = |from: &[f64], to: &[f64]| {
+                let point = from.iter().zip(to).map(|(from, to)| from + 0.5 * WIDER * (to - from)).collect();
+                settled(inputs, from, point)
+            };
+            [a.clone(), b.clone(), moved(b, a), moved(a, b)]
+        };
+        let points: Vec<Vec<f64>> = sides.iter().flat_map(wider).collect();
+        let exact = trace.run::<f64>(&Points::of(inputs, points.iter().map(Vec::as_slice)))?;
+        for (value, numbers) in exact.iter().enumerate() {
+            let group = trace.values[value].group;
+            for ([before, after], numbers) in sides.iter().zip(numbers.chunks(4)) {
+                let (height, wide) = ((numbers[1] - numbers[0]).abs(), (numbers[3] - numbers[2]).abs());
+                let least = LEAST * numbers[0].abs().max(numbers[1].abs()).max(rms[group]);
+                let is_jump = height.is_finite() && height > least && height > 0.5 * wide;
+                if is_jump && largest[group].as_ref().is_none_or(|jump| jump.height() < height) {
+                    let (before, after) = (before.clone(), after.clone());
+                    largest[group] = Some(Jump { value, before, after, from: numbers[0], to: numbers[1] });
+                }
+            }
+        }
+    }
+    found.extend(largest.into_iter().flatten());
+    let jumping: BTreeSet<NodeId> = found.iter().map(|jump| trace.values[jump.value].node.clone()).collect();
+    found.retain(|jump| !wiring.has_source(&trace.values[jump.value].node, &jumping));
+    Ok(found)
+}
+
 /// Points on lines, each along one input that may be moved alone, or along an arc of the directions; and how many a line has.
-fn lines(trace: &Trace<'_>, domain: &[Points], random: &mut Random) -> (Vec<Vec<f64>>, usize) {
+pub(super) fn lines(trace: &Trace<'_>, domain: &[Points], random: &mut Random) -> (Vec<Vec<f64>>, usize) {
     let inputs = &trace.inputs;
     let mut ways: Vec<Option<(usize, [f64; 2])>> = inputs
         .iter()

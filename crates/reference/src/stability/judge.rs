@@ -6,8 +6,11 @@ use halfvector_graph::document::NodeId;
 use halfvector_interp::Float;
 
 use crate::stability::constant::gives_surface;
+use crate::stability::critical::{self, Critical};
+use crate::stability::dense;
 use crate::stability::domain::{POINTS, Points, Precision, Random, Source, domain};
 use crate::stability::edge::{self, Jump, Wrong};
+use crate::stability::effort::Effort;
 use crate::stability::trace::{Trace, Value};
 use crate::stability::wiring::Wiring;
 use crate::stability::{Edge, Finding, Stability, StabilityError};
@@ -94,6 +97,33 @@ struct Tally {
     not_finite: BTreeSet<NodeId>,
 }
 
+/// Where the points of a set come from.
+enum Chosen<'j> {
+    /// They are spread over the domain.
+    Domain,
+    /// Something may be wrong there.
+    Searched,
+    /// They lie at poles or the next number beside them, where f32 cannot be near: only what is not finite counts.
+    Poles,
+    /// They lie at jumps, of each point the jump: there its node alone is judged, since those behind it may have been fed the
+    /// other side.
+    Beside(&'j [&'j Jump]),
+}
+
+impl Chosen<'_> {
+    fn jump(&self, point: usize) -> Option<&Jump> {
+        match self {
+            Chosen::Domain | Chosen::Searched | Chosen::Poles => None,
+            Chosen::Beside(jumps) => Some(jumps[point]),
+        }
+    }
+}
+
+/// Some rows of columns.
+fn part(columns: &[Vec<f64>], rows: &[usize]) -> Vec<Vec<f64>> {
+    columns.iter().map(|column| rows.iter().map(|row| column[*row]).collect()).collect()
+}
+
 /// `live`: the material with its constant nodes, where it has such, and which those are.
 pub(super) fn judge<F: Float>(
     trace: &Trace<'_>,
@@ -107,14 +137,25 @@ pub(super) fn judge<F: Float>(
     let fed: Vec<&[usize]> = trace.values.iter().map(|value| fed[&value.node].as_slice()).collect();
     let mut tally = Tally { counts: vec![Counts::default(); trace.values.len()], ..Tally::default() };
     let settings = sets.len();
-    for set in sets.iter().enumerate() {
-        tally.take::<F>(trace, precision, &fed, set, None, &mut random)?;
+    for (set, points) in sets.iter().enumerate() {
+        tally.take::<F>(trace, precision, &fed, (set, points), &Chosen::Domain, &mut random)?;
     }
-    let mut jumps = edge::search(trace, &wiring, precision, &sets, &tally.rms, &mut random)?;
+    let jumps = edge::search(trace, &wiring, precision, &sets, &tally.rms, &mut random)?;
+    let effort = Effort::of(trace);
+    let Critical { poles, around: mut points, sides } = critical::search(trace, precision, &sets, effort, &mut random)?;
+    points.extend(dense::search::<F>(trace, precision, &sets, &tally.rms, effort, &mut random)?);
+    for (points, chosen) in [(points, Chosen::Searched), (poles, Chosen::Poles)] {
+        for points in points.chunks(POINTS) {
+            let points = Points::of(&trace.inputs, points.iter().map(Vec::as_slice));
+            tally.take::<F>(trace, precision, &fed, (sets.len(), &points), &chosen, &mut random)?;
+            sets.push(points);
+        }
+    }
+    let mut jumps = edge::decided(trace, &wiring, &sides, &tally.rms, jumps)?;
     if !jumps.is_empty() {
         let (points, of) = edge::both_sides(&trace.inputs, precision, &jumps);
         let jump_at: Vec<&Jump> = of.iter().map(|number| &jumps[*number]).collect();
-        tally.take::<F>(trace, precision, &fed, (settings, &points), Some(&jump_at), &mut random)?;
+        tally.take::<F>(trace, precision, &fed, (sets.len(), &points), &Chosen::Beside(&jump_at), &mut random)?;
         sets.push(points);
     }
     // What remains when edges are excused.
@@ -208,36 +249,47 @@ pub(super) fn judge<F: Float>(
 }
 
 impl Tally {
-    /// Looks at the points of a set. `fed`: the values that each value's node is fed. `jumps`: of points at a jump the jump;
-    /// there its node alone is judged, since those behind it may have been fed the other side.
+    /// Looks at the points of a set. `fed`: the values that each value's node is fed.
     fn take<F: Float>(
         &mut self,
         trace: &Trace<'_>,
         precision: Precision,
         fed: &[&[usize]],
         (set, points): (usize, &Points),
-        jumps: Option<&[&Jump]>,
+        chosen: &Chosen<'_>,
         random: &mut Random,
     ) -> Result<(), StabilityError> {
         let narrow = trace.run::<F>(points)?;
         let exact = trace.run::<f64>(points)?;
-        let change = change(trace, precision, points, &exact, random)?;
-        let rms = rms(&trace.values, &exact);
-        // A set of few points alone says little of how large an output is.
-        let rms: Vec<f64> = if points.count < POINTS { self.rms.clone() } else { rms };
+        let is_pole = matches!(chosen, Chosen::Poles);
+        // What was searched for says little of how large an output is.
+        let rms = if let Chosen::Domain = chosen { rms(&trace.values, &exact) } else { self.rms.clone() };
+        let tolerance = |value: usize, x: f64| precision.tolerance() * x.abs().max(rms[trace.values[value].group]);
+        // How much exact arithmetic changes nearby is asked for where there is something to excuse.
+        let is_off = |point: &usize| {
+            let is_off = |value: usize| {
+                let exact = exact[value][*point];
+                (narrow[value][*point] - exact).abs() > tolerance(value, exact)
+            };
+            !is_pole && (0..trace.values.len()).any(is_off)
+        };
+        let off: Vec<usize> = (0..points.count).filter(is_off).collect();
+        let mut row = vec![0; points.count];
+        off.iter().enumerate().for_each(|(number, point)| row[*point] = number);
+        let change = change(trace, precision, &points.of_numbers(&off), &part(&exact, &off), random)?;
         self.rms.resize(rms.len(), 0.0);
         self.rms.iter_mut().zip(&rms).for_each(|(most, rms)| *most = most.max(*rms));
-        for (value, Value { node, group, .. }) in trace.values.iter().enumerate() {
+        for (value, Value { node, .. }) in trace.values.iter().enumerate() {
             for point in 0..points.count {
                 // The other side is an ulp away.
-                let beyond = match jumps.map(|jumps| jumps[point]) {
+                let beyond = match chosen.jump(point) {
                     Some(jump) if trace.values[jump.value].node != *node => continue,
                     Some(jump) if jump.value == value => jump.height(),
                     _ => 0.0,
                 };
                 let (narrow, there) = (narrow[value][point], exact[value][point]);
                 self.counts[value].take(precision, narrow, there);
-                let tolerance = precision.tolerance() * there.abs().max(rms[*group]);
+                let tolerance = tolerance(value, there);
                 let suspect = Suspect { value, set, point, narrow, exact: there, tolerance };
                 if !there.is_finite() {
                     self.not_finite.insert(node.clone());
@@ -247,13 +299,16 @@ impl Tally {
                             *kept = suspect;
                         }
                     }
-                } else if !narrow.is_finite() || suspect.error() > FACTOR * change[value][point].max(beyond) + tolerance
-                {
+                } else if !narrow.is_finite() {
                     self.suspects.entry(value).or_default().push(suspect);
-                } else if suspect.error() > tolerance {
-                    let kept = self.excused.entry(value).or_insert(suspect);
-                    if kept.error() < suspect.error() {
-                        *kept = suspect;
+                } else if suspect.error() > tolerance && !is_pole {
+                    if suspect.error() > FACTOR * change[value][row[point]].max(beyond) + tolerance {
+                        self.suspects.entry(value).or_default().push(suspect);
+                    } else {
+                        let kept = self.excused.entry(value).or_insert(suspect);
+                        if kept.error() < suspect.error() {
+                            *kept = suspect;
+                        }
                     }
                 }
             }

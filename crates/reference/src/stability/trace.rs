@@ -13,10 +13,10 @@ use halfvector_graph::document::{Document, NodeId};
 use halfvector_graph::flatten::flatten;
 use halfvector_graph::library::{CAPABILITIES, Library};
 use halfvector_interp::{
-    Column, Derivatives, Entry, Float, Limits, Outputs, Program, Resources, Sampler, Slot, Texture,
+    Column, Derivatives, Entry, Float, Limits, OutputColumn, Outputs, Program, Resources, Sampler, Slot, Texture, Watch,
 };
 use halfvector_scene::{Scene, SceneMaterial};
-use naga::valid::{ValidationFlags, Validator};
+use naga::valid::{ModuleInfo, ValidationFlags, Validator};
 use naga::{ScalarKind, TypeInner};
 
 use crate::stability::StabilityError;
@@ -30,6 +30,8 @@ pub(super) struct Trace<'d> {
     /// The definitions of its nodes.
     pub(super) library: Library,
     program: Program,
+    module: naga::Module,
+    info: ModuleInfo,
     /// Each scalar that it reads.
     pub(super) inputs: Vec<Input>,
     /// Each scalar of the result.
@@ -109,13 +111,15 @@ impl<'d> Trace<'d> {
                 group += 1;
             }
         }
-        let numbers = Numbers { document, shader: &shader };
+        let numbers = Arguments { document, shader: &shader };
         let inputs = program.inputs().iter().map(|slot| numbers.input(slot)).collect();
         let mut trace = Trace {
             name: &document.name,
             flat: flat.document,
             library: flat.library,
             program,
+            module,
+            info,
             inputs,
             values,
             textures: Vec::new(),
@@ -146,8 +150,30 @@ impl<'d> Trace<'d> {
         Ok(())
     }
 
+    /// Steps of the program.
+    pub(super) fn steps(&self) -> usize {
+        self.program.steps()
+    }
+
+    /// The same program with the numbers that it decides by.
+    pub(super) fn watched(&self) -> Result<Watched<'_>, StabilityError> {
+        let (program, watches) = Program::compile_watched(&self.module, &self.info, Entry::Function("trace"))
+            .map_err(|error| StabilityError::Run { material: self.name.to_owned(), why: error.to_string() })?;
+        let first = program.outputs().len() - watches.len();
+        let program = Watched { watches, trace: self, program, first };
+        Ok(program)
+    }
+
     /// Every value at every point.
     pub(super) fn run<F: Float>(&self, points: &Points) -> Result<Vec<Vec<f64>>, StabilityError> {
+        if points.count == 0 {
+            return Ok(vec![Vec::new(); self.values.len()]);
+        }
+        let outputs = self.execute::<F>(&self.program, points)?;
+        Ok(outputs.columns.iter().map(|column| column.to_f64()).collect())
+    }
+
+    fn execute<F: Float>(&self, program: &Program, points: &Points) -> Result<Outputs<F>, StabilityError> {
         let mut resources = Resources::default();
         for ((group, binding), texture) in &self.textures {
             resources = resources.texture(*group, *binding, texture);
@@ -173,20 +199,51 @@ impl<'d> Trace<'d> {
             })
             .collect();
         let mut outputs = Outputs::default();
-        self.program
+        program
             .run(&columns, points.count, &mut outputs, &resources, Derivatives::Zero, Limits::default())
             .map_err(|error| StabilityError::Run { material: self.name.to_owned(), why: error.to_string() })?;
-        Ok(outputs.columns.iter().map(|column| column.to_f64()).collect())
+        Ok(outputs)
+    }
+}
+
+/// A material that tells what its nodes decide by.
+pub(super) struct Watched<'t> {
+    /// How each number matters.
+    pub(super) watches: Vec<Watch>,
+    trace: &'t Trace<'t>,
+    program: Program,
+    /// Outputs of the program before them.
+    first: usize,
+}
+
+impl Watched<'_> {
+    /// The numbers at points, exactly computed.
+    pub(super) fn run(&self, points: &Points) -> Result<Numbers, StabilityError> {
+        let Outputs { mut columns, .. } = self.trace.execute::<f64>(&self.program, points)?;
+        Ok(Numbers(columns.split_off(self.first)))
+    }
+}
+
+/// What a material decides by, at points.
+pub(super) struct Numbers(Vec<OutputColumn<f64>>);
+
+impl Numbers {
+    /// One of them, at all points.
+    pub(super) fn column(&self, watch: usize) -> &[f64] {
+        match &self.0[watch] {
+            OutputColumn::Float(column) | OutputColumn::Double(column) => column,
+            OutputColumn::Word(_) => &[],
+        }
     }
 }
 
 /// What a program's arguments stand for.
-struct Numbers<'s> {
+struct Arguments<'s> {
     document: &'s Document,
     shader: &'s Shader,
 }
 
-impl Numbers<'_> {
+impl Arguments<'_> {
     /// An argument's scalar: `context.uv0.x`, `parameters.tint.y`.
     fn input(&self, slot: &Slot) -> Input {
         let number = match slot.scalar.kind {

@@ -8,7 +8,7 @@ use halfvector_scene::{BuiltinMesh, MeshSource, Scene};
 use crate::data;
 
 /// Fewest planted cases.
-const CASES: usize = 16;
+const CASES: usize = 19;
 
 fn materials(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../").join(folder);
@@ -187,6 +187,61 @@ fn a_pole_between_the_samples_is_found() {
     let [found] = judged.unstable.as_slice() else { panic!("{judged:?}") };
     assert_eq!(found.input, [("uv0.x".to_owned(), f64::from(0.3_f32))]);
     assert!(found.infinite > 0 && found.exact.is_infinite());
+}
+
+/// A single point of the plane or line that no sample lies on is found by what leads there.
+#[test]
+fn isolated_points_are_found() {
+    let bodies = [
+        "return log(abs(uv.x - 0.3721));",
+        "return normalize(uv - vec2f(0.3721, 0.2)).x;",
+        "return 1.0 / length(uv - vec2f(-2.3721, 3.217));",
+        "return 1.0 / (uv.x - uv.y);",
+        "return inverseSqrt(dot(uv - 0.617, uv - 0.617));",
+        "let d = uv - vec2f(0.3721, 0.2); return d.x * d.y / dot(d, d);",
+        // Its neighbours are negative and positive.
+        "return pow(uv.x - 1.3721 + abs(uv.x - 1.3721), -0.1);",
+        "let d = uv.x - 0.3721; return (1.0 - cos(d)) / (d * d);",
+    ];
+    let bodies: Vec<&str> = bodies.to_vec();
+    let judged = judged_functions(&bodies);
+    let nodes: Vec<String> = (0..bodies.len()).map(|number| format!("f{number}")).collect();
+    assert_eq!(unstable_nodes(&judged), nodes, "{judged:#?}");
+    assert!(judged.unstable.iter().all(|found| !found.narrow.is_finite()), "{:#?}", judged.unstable);
+    let [_, direction, ..] = judged.unstable.as_slice() else { panic!() };
+    let at = [("uv0.x".to_owned(), f64::from(0.3721_f32)), ("uv0.y".to_owned(), f64::from(0.2_f32))];
+    assert_eq!(direction.input, at);
+}
+
+/// What f32 gets wrong in a thousandth of the way between two whole coordinates, or in a disc as wide.
+#[test]
+fn narrow_bands_are_found() {
+    let bodies = [
+        "return select(uv.x, (uv.x + 1e7) - 1e7, abs(uv.x - 0.3721) < 0.0005);",
+        "if length(uv - vec2f(0.3721, 0.2)) < 0.0005 { return (uv.x + 1e7) - 1e7; } return uv.x;",
+        // Nothing is decided: only the error is there to be seen.
+        "let t = (uv.y - 0.3721) / 0.0002; let b = 1e7 * exp(-t * t); return (uv.y + b) - b;",
+    ];
+    let judged = judged_functions(&bodies);
+    assert_eq!(unstable_nodes(&judged), ["f0", "f1", "f2"], "{judged:#?}");
+}
+
+/// Steps that are finer than what f32 may be off, or that no line of samples meets.
+#[test]
+fn fine_and_small_jumps_are_edges() {
+    let bodies = [
+        "return round(uv.x * 1000.0) / 1000.0;",
+        "return floor(uv.y * 20000.0) / 20000.0;",
+        "return step(length(uv - vec2f(0.3721, 0.2)), 0.01);",
+        "return step(length(uv - vec2f(-2.3721, 3.217)), 0.0005);",
+        "return select(0.0, 1.0, abs(uv.x - 0.3721) < 0.0005);",
+        "return select(0.5, 0.6, all(abs(uv - vec2f(0.1234, 0.7)) < vec2f(0.003)));",
+        "return f32(i32(uv.x * 300.0) & 1);",
+        "return sign(0.999 - sin(uv.x * 3.0) * sin(uv.y * 3.0));",
+    ];
+    let judged = judged_functions(&bodies);
+    let nodes: Vec<String> = (0..bodies.len()).map(|number| format!("f{number}")).collect();
+    assert_eq!((edge_nodes(&judged), unstable_nodes(&judged)), (nodes.iter().map(String::as_str).collect(), vec![]));
 }
 
 /// The node that makes it is named, and those that it feeds are told as not judged.
