@@ -180,17 +180,27 @@ fn cell(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
 }
 
+/// Whether a row is of a method: by its name, or by its name with a variant after a comma (`unorm, 16 bits`).
+fn is_named(row: &Row, method: &str) -> bool {
+    row.method == method || row.method.split(',').next() == Some(method)
+}
+
+/// What is of a method: what has its name alone, before what has a variant of it.
+fn named<'a, T>(all: &'a [T], row: impl Fn(&T) -> &Row, method: &str) -> Option<&'a T> {
+    all.iter().find(|one| row(one).method == method).or_else(|| all.iter().find(|one| is_named(row(one), method)))
+}
+
 /// One line for each method of the list that was measured: its worst error, and its cost.
 fn methods_csv(comparisons: &[Comparison<'_>], rows: &[Row]) -> String {
     let mut text =
         "term,method,error_rms,error_max,unit,time_beside_default,instructions,gpu_ns,bytes,inputs\n".to_owned();
     for term in TERMS {
-        let named = |row: &Row, method: &str| row.method == method || row.method.split(',').next() == Some(method);
         for method in term.methods {
-            let found = comparisons.iter().filter(|comparison| comparison.term == term.name).find_map(|comparison| {
-                Some((comparison, comparison.entries.iter().find(|entry| named(entry.row, method.name))?))
-            });
-            let own = || rows.iter().filter(|row| row.term == term.name && named(row, method.name));
+            let found = comparisons
+                .iter()
+                .filter(|comparison| comparison.term == term.name)
+                .find_map(|comparison| Some((comparison, named(&comparison.entries, |entry| entry.row, method.name)?)));
+            let own = || rows.iter().filter(|row| row.term == term.name && is_named(row, method.name));
             let instructions = own().find_map(|row| row.instructions);
             if found.is_none() && instructions.is_none() {
                 continue;
@@ -198,7 +208,7 @@ fn methods_csv(comparisons: &[Comparison<'_>], rows: &[Row]) -> String {
             let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.3e}"));
             let beside = found.filter(|(comparison, _)| matches!(comparison.cost, Cost::Batch | Cost::Call)).and_then(
                 |(comparison, entry)| {
-                    let default = comparison.entries.iter().find(|entry| named(entry.row, term.methods[0].name))?;
+                    let default = named(&comparison.entries, |entry| entry.row, term.methods[0].name)?;
                     Some(entry.cost / default.cost)
                 },
             );
@@ -228,4 +238,17 @@ fn methods_csv(comparisons: &[Comparison<'_>], rows: &[Row]) -> String {
         }
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_method_s_own_row_comes_before_its_variants() {
+        let rows = ["unorm, 16 bits", "unorm", "snorm, 16 bits"].map(|method| Row::new("normal_decode", method, ""));
+        assert_eq!(named(&rows, |row| row, "unorm").map(|row| &*row.method), Some("unorm"));
+        assert_eq!(named(&rows, |row| row, "snorm").map(|row| &*row.method), Some("snorm, 16 bits"));
+        assert!(named(&rows, |row| row, "two_channel").is_none());
+    }
 }

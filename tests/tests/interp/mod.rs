@@ -2,6 +2,7 @@
 //! nobody wrote, against a GPU.
 
 mod bake;
+mod builtins;
 mod library;
 mod random;
 
