@@ -92,12 +92,13 @@ impl Editor {
         }
         ui.separator();
         let has_selected = !self.session.selection().is_empty();
+        let has_chosen = has_selected || self.panes.canvas.has_picked();
         for (verb, name, key) in Verb::ALL {
             let button = egui::Button::new(name).shortcut_text(key);
             let is_for_it = match verb {
                 Verb::Paste => true,
                 Verb::Connect | Verb::DeleteAndHeal => has_selected,
-                _ => has_selected || self.panes.canvas.has_picked(),
+                _ => has_chosen,
             };
             if ui.add_enabled(is_for_it, button).clicked() {
                 layout::show(&mut self.tree, Pane::Canvas);
@@ -109,7 +110,8 @@ impl Editor {
             layout::show(&mut self.tree, Pane::Canvas);
             self.panes.canvas.ask(Verb::SelectAll);
         }
-        if ui.add_enabled(has_selected, egui::Button::new("Select nothing")).clicked() {
+        if ui.add_enabled(has_chosen, egui::Button::new("Select nothing")).clicked() {
+            self.panes.canvas.pick_nothing();
             actions.push(Action::Select(Vec::new()));
         }
         ui.separator();

@@ -284,18 +284,18 @@ impl Canvas {
         }
     }
 
-    /// The view that shows all cards.
+    /// The view that shows all cards, frames and comments.
     fn whole(&mut self, sheet: &Sheet, pane: Rect) -> View {
-        let bounds = Sheet::bounds(sheet.cards.iter());
+        let bounds = sheet.whole();
         let view = bounds.map_or_else(View::default, |rect| View::showing(rect, below_bar(pane)));
         self.fitted = Some((view, pane.size()));
         view
     }
 
-    /// Shows some cards whole, or all when there are none.
+    /// Shows what is chosen whole, or all when nothing is.
     fn fit(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, only_selected: bool) {
-        let selected = Sheet::bounds(sheet.cards.iter().filter(|card| only_selected && card.is_selected));
-        desk.lens.view = match selected {
+        let chosen = only_selected.then(|| self.chosen(desk).bounds(sheet)).flatten();
+        desk.lens.view = match chosen {
             Some(rect) => View::showing(rect, below_bar(desk.lens.pane)),
             None => self.whole(sheet, desk.lens.pane),
         };

@@ -210,3 +210,62 @@ fn a_frame_and_a_comment_come_where_the_pointer_is() {
         assert!(rect.left_top().distance(at) < 20.0, "{label}: {rect:?}, {at:?}");
     }
 }
+
+#[test]
+fn a_frame_keeps_a_card_that_is_larger_than_it() {
+    let mut window = framed();
+    let [left, top] = graph(&window).layout["surface"];
+    // Around the header and a few rows: the card was folded when the frame was put there.
+    let rect = Rect { position: [left - 20.0, top - 60.0], size: [400.0, 120.0] };
+    let frame = Frame { title: "Short".into(), rect, ..Frame::default() };
+    window.state_mut().act(Action::edit("Frame", Edit::AddFrame { id: "short".into(), frame }));
+    window.run_steps(2);
+    window.get_by_label("Frame Short").click();
+    window.run_steps(2);
+    let before = graph(&window);
+    key(&mut window, NONE, egui::Key::ArrowUp);
+    let ways = ways(&before, &graph(&window));
+    assert_eq!((ways["short"], ways["surface"], ways["chips"]), ([0.0, -20.0], [0.0, -20.0], [0.0, 0.0]));
+}
+
+#[test]
+fn all_is_shown_with_frames_and_comments() {
+    let mut window = framed();
+    let rect = Rect { position: [-3000.0, -2000.0], size: [300.0, 200.0] };
+    let frame = Frame { title: "Far".into(), rect, ..Frame::default() };
+    window.state_mut().act(Action::edit("Frame", Edit::AddFrame { id: "far".into(), frame }));
+    window.run_steps(2);
+    key(&mut window, NONE, egui::Key::Home);
+    window.run_steps(2);
+    let canvas = window.get_by_label("Graph canvas").rect();
+    assert!(canvas.contains_rect(window.get_by_label("Frame Far").rect()));
+}
+
+#[test]
+fn escape_drops_what_was_written_on_a_comment() {
+    let mut window = framed();
+    window.get_by_label("Comment Why").click();
+    window.run_steps(2);
+    key(&mut window, NONE, egui::Key::F2);
+    window.step();
+    write(&mut window, "Because");
+    key(&mut window, NONE, egui::Key::Escape);
+    window.run_steps(2);
+    assert_eq!(graph(&window).comments["why"].text, "Why");
+}
+
+#[test]
+fn the_menu_chooses_no_frame() {
+    let mut window = framed();
+    window.get_by_label("Frame Inner").click();
+    window.run_steps(2);
+    window.get_by_label("Edit").click();
+    window.run_steps(2);
+    window.get_by_label("Select nothing").click();
+    window.run_steps(3);
+    let before = text(&window);
+    window.get_by_label("Graph canvas").focus();
+    window.run_steps(2);
+    key(&mut window, NONE, egui::Key::Delete);
+    assert_eq!(text(&window), before);
+}

@@ -3,7 +3,7 @@
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use halfvector_editor::{Action, Editor, Options, egui};
-use halfvector_graph::document::{Document, SocketRef};
+use halfvector_graph::document::{Document, Parameter, SocketRef};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::value::Value;
 
@@ -181,6 +181,35 @@ fn a_conductor_takes_the_constants_of_a_metal() {
     assert!(matches!(value(&harness, "metal", "k"), Some(Value::Vec3([red, ..])) if red == 3.626));
     harness.state_mut().act(Action::Undo);
     assert_eq!(eta(&harness), 0.156);
+}
+
+/// A metal that loses an input is not exposed there any more, and undo brings it all back.
+#[test]
+fn a_metal_without_an_input_has_no_parameter_for_it() {
+    let mut harness = window("surface");
+    let node = halfvector_graph::document::Node::new("optics/conductor");
+    let exposed = |name: &str, node: &str, socket: &str| Edit::AddParameter {
+        place: Some(0),
+        parameter: Parameter { name: name.into(), label: None, socket: SocketRef::new(node, socket), range: None },
+    };
+    let edits = vec![
+        Edit::AddNode { id: "metal".into(), node },
+        exposed("metal_eta", "metal", "eta"),
+        exposed("kept", "chips", "gain"),
+        exposed("metal_k", "metal", "k"),
+    ];
+    harness.state_mut().act(Action::edit("Add", Edit::Many(edits)));
+    select(&mut harness, "metal");
+    let before = document(&harness).clone();
+    harness.get_by_role_and_label(Role::ComboBox, "Metal").click();
+    harness.run_steps(3);
+    harness.get_all_by_label("Gold").last().unwrap().click();
+    harness.run_steps(3);
+    assert_eq!(document(&harness).graph.nodes["metal"].node, "optics/gold");
+    assert!(document(&harness).parameter("kept").is_some());
+    assert!(document(&harness).parameters.iter().all(|parameter| parameter.socket.node != "metal"));
+    harness.state_mut().act(Action::Undo);
+    assert_eq!(*document(&harness), before);
 }
 
 /// A node of any type shows a swatch where it works on colours, and numbers elsewhere.

@@ -41,10 +41,19 @@ struct Choice {
     link: Link,
     is_there: bool,
     text: String,
+    /// Whether the output's value becomes one of another type.
+    is_converted: bool,
     /// What is said at the end of its line.
     aside: String,
     /// Of the node at the other end.
     category: String,
+}
+
+/// A link that can be made, and what is told of it.
+struct Pair {
+    link: Link,
+    is_converted: bool,
+    aside: String,
 }
 
 impl Canvas {
@@ -193,8 +202,8 @@ impl Connecting {
     }
 }
 
-/// All wires between the subjects and others that can be made, the nearest first, then those that are there. Of several subjects
-/// only those among them.
+/// All wires between the subjects and others that can be made, without conversion first, of these the nearest; then
+/// those that are there. Of several subjects only those among them.
 fn choices(
     desk: &Desk<'_>,
     sheet: &Sheet,
@@ -215,34 +224,33 @@ fn choices(
                 (Some(a), Some(b)) => a.rect().center().distance(b.rect().center()),
                 _ => f32::INFINITY,
             };
-            let mut add = |link: Link, text: String, aside: String| {
+            let mut add = |Pair { link, is_converted, aside }: Pair, text: String| {
                 let is_there = graph.links.contains(&link);
                 let category = sheet.card(other).map_or("", super::Card::category).to_owned();
-                found.push((is_there, way, Choice { link, is_there, text, aside, category }));
+                found.push((is_there, way, Choice { link, is_there, text, is_converted, aside, category }));
             };
             // Nothing may come to feed itself.
             if !feeds.contains(other.as_str()) {
-                for (link, aside) in pairs(graph, &types, subject, other, |name| is_meant(subject, name, Side::Output))
-                {
-                    let own = output_name(&types, &link.from).map_or_else(String::new, |name| format!("{name}: "));
-                    let text = format!("{own}to {} of {}", shown(&link.to.socket), label(other));
-                    add(link, text, aside);
+                for pair in pairs(graph, &types, subject, other, |name| is_meant(subject, name, Side::Output)) {
+                    let own = output_name(&types, &pair.link.from).map_or_else(String::new, |name| format!("{name}: "));
+                    let text = format!("{own}to {} of {}", shown(&pair.link.to.socket), label(other));
+                    add(pair, text);
                 }
             }
             // Among the subjects the other one's outputs have their turn.
             if !among && !fed.contains(other.as_str()) {
-                for (link, aside) in pairs(graph, &types, other, subject, |_| true) {
-                    if is_meant(subject, &link.to.socket, Side::Input) {
+                for pair in pairs(graph, &types, other, subject, |_| true) {
+                    if is_meant(subject, &pair.link.to.socket, Side::Input) {
                         let theirs =
-                            output_name(&types, &link.from).map_or_else(String::new, |name| format!("{name} of "));
-                        let text = format!("{}: from {theirs}{}", shown(&link.to.socket), label(other));
-                        add(link, text, aside);
+                            output_name(&types, &pair.link.from).map_or_else(String::new, |name| format!("{name} of "));
+                        let text = format!("{}: from {theirs}{}", shown(&pair.link.to.socket), label(other));
+                        add(pair, text);
                     }
                 }
             }
         }
     }
-    found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    found.sort_by(|a, b| a.0.cmp(&b.0).then(a.2.is_converted.cmp(&b.2.is_converted)).then(a.1.total_cmp(&b.1)));
     let worded = |(is_there, _, choice): (bool, f32, Choice)| match is_there {
         true => Choice { text: format!("{} (take away)", choice.text), aside: "connected".to_owned(), ..choice },
         false => choice,
@@ -251,32 +259,26 @@ fn choices(
 }
 
 /// The links that can be made from a node to another one, with what they would replace.
-fn pairs(
-    graph: &Graph,
-    types: &Types<'_>,
-    from: &str,
-    to: &str,
-    is_meant: impl Fn(&str) -> bool,
-) -> Vec<(Link, String)> {
+fn pairs(graph: &Graph, types: &Types<'_>, from: &str, to: &str, is_meant: impl Fn(&str) -> bool) -> Vec<Pair> {
     let (Some(giver), Some(taker)) = (types.get(from), types.get(to)) else { return Vec::new() };
     let mut pairs = Vec::new();
     for output in giver.def.outputs.iter().filter(|output| is_meant(&output.name)) {
         for input in &taker.def.inputs {
-            if !goes(giver, output.ty, taker, input.ty) {
-                continue;
-            }
+            let Some(is_converted) = goes(giver, output.ty, taker, input.ty) else { continue };
             let link = Link::new(SocketRef::new(from, &output.name), SocketRef::new(to, &input.name));
             let aside = if graph.incoming(&link.to).is_some() { "replaces a wire" } else { "" };
-            pairs.push((link, aside.to_owned()));
+            pairs.push(Pair { link, is_converted, aside: aside.to_owned() });
         }
     }
     pairs
 }
 
-fn goes(giver: &NodeTypes<'_>, given: SocketType, taker: &NodeTypes<'_>, wanted: SocketType) -> bool {
+/// Whether a value is converted on the way to an input; none when it cannot go there.
+fn goes(giver: &NodeTypes<'_>, given: SocketType, taker: &NodeTypes<'_>, wanted: SocketType) -> Option<bool> {
     let given = giver.resolved(given);
     let wanted = candidates(taker.resolved(wanted), wanted == SocketType::Generic, &taker.def.generic);
-    wanted.into_iter().any(|wanted| fits(given, wanted))
+    let fits = wanted.iter().any(|wanted| fits(given, *wanted));
+    fits.then(|| !wanted.contains(&given))
 }
 
 /// The name of an output; none of the only one, as its node says it all.

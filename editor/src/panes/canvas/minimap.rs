@@ -35,6 +35,10 @@ impl Canvas {
             StrokeKind::Inside,
         );
         let painter = brush.painter.with_clip_rect(map.pane.shrink(2.0));
+        for note in &sheet.notes {
+            let rect = map.rect_to_screen(note.shown);
+            painter.rect_stroke(rect, 1.0, Stroke::new(1.0, colors.line), StrokeKind::Inside);
+        }
         for card in &sheet.cards {
             let color = if card.is_selected { theme::ACCENT } else { theme::category_color(card.category()) };
             painter.rect_filled(map.rect_to_screen(card.rect()), 1.0, color.gamma_multiply(strength));
@@ -45,7 +49,7 @@ impl Canvas {
 
     /// None while all is in view, or the pane is too small, or nobody wants it.
     fn map_lens(&self, lens: Lens, sheet: &Sheet) -> Option<Lens> {
-        let all = Sheet::bounds(sheet.cards.iter())?;
+        let all = sheet.whole()?;
         let is_needed =
             !lens.seen().contains_rect(all) && lens.pane.width() > 3.0 * SIZE.x && lens.pane.height() > 2.5 * SIZE.y;
         (is_needed && !self.hides_map).then(|| {

@@ -8,7 +8,7 @@ use halfvector_graph::edit::Edit;
 
 use super::draw::{Brush, Detail};
 use super::picked::Chosen;
-use super::sheet::{Card, Sheet};
+use super::sheet::{Card, HEADER, Sheet};
 use super::view::{Lens, to_grid};
 use super::{Canvas, Desk};
 use crate::theme;
@@ -92,9 +92,10 @@ impl Note {
         if corner.contains(at) { Some(Part::Corner) } else { grip.contains(at).then_some(Part::Title) }
     }
 
-    /// Whether a card lies in it.
+    /// Whether a card lies in it: the middle of its header, so that a card that grows stays in its frame.
     pub(super) fn holds(&self, card: &Card) -> bool {
-        matches!(self.id, NoteId::Frame(_)) && self.rect.contains_rect(Rect::from_min_size(card.place, card.size))
+        let middle = card.place + vec2(card.size.x, card.size.y.min(HEADER)) / 2.0;
+        matches!(self.id, NoteId::Frame(_)) && self.rect.contains(middle)
     }
 
     /// Whether another note lies in it.
@@ -353,9 +354,10 @@ pub(super) fn write_lines(ui: &mut egui::Ui, rect: Rect, text: &mut String, is_n
         response.request_focus();
         return (true, false);
     }
-    // Escape and a click elsewhere keep what was written; undo takes it back.
-    let is_done = response.lost_focus() || ui.input(|input| input.key_pressed(Key::Escape));
-    (!is_done, is_done)
+    // A click elsewhere keeps what was written; Escape drops it.
+    let is_given_up = ui.input(|input| input.key_pressed(Key::Escape));
+    let is_done = response.lost_focus() && !is_given_up;
+    (!is_done && !is_given_up, is_done)
 }
 
 /// The rectangle of a note whose corner is dragged.

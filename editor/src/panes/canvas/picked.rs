@@ -86,6 +86,11 @@ impl Canvas {
         !self.picked.is_empty()
     }
 
+    /// Chooses no frame and no comment.
+    pub(crate) fn pick_nothing(&mut self) {
+        self.picked.clear();
+    }
+
     pub(super) fn chosen(&self, desk: &Desk<'_>) -> Chosen {
         Chosen { nodes: desk.session.selection().clone(), notes: self.picked.clone() }
     }

@@ -215,6 +215,14 @@ impl Sheet {
         cards.map(Card::rect).reduce(Rect::union)
     }
 
+    /// The rectangle around all cards, frames and comments; none when there are none.
+    pub(super) fn whole(&self) -> Option<Rect> {
+        // Like a card's place, a note's counts only where it can be drawn.
+        let is_near = |rect: &Rect| [rect.min, rect.max].iter().all(|at| at.x.abs() < 1e6 && at.y.abs() < 1e6);
+        let notes = self.notes.iter().map(|note| note.shown).filter(is_near);
+        self.cards.iter().map(Card::rect).chain(notes).reduce(Rect::union)
+    }
+
     /// The place of a socket.
     pub(super) fn socket(&self, (card, row): (usize, usize)) -> Pos2 {
         self.cards[card].socket(&self.cards[card].rows[row])

@@ -63,7 +63,8 @@ pub(crate) fn show(ui: &mut egui::Ui, session: &Session, id: &NodeId, def: &Node
     }
 }
 
-/// The edit that makes a metal another one. What the other one has no inputs for goes; optical constants begin as its own.
+/// The edit that makes a metal another one. What the other one has no inputs for goes, and is no longer exposed; optical constants
+/// begin as its own.
 fn made(session: &Session, id: &NodeId, node: &Node, metal: &NodeDef) -> Edit {
     let is_input = |name: &String| metal.inputs.iter().any(|input| input.name == *name);
     let mut changed = Node { node: metal.id.clone(), ..node.clone() };
@@ -74,6 +75,11 @@ fn made(session: &Session, id: &NodeId, node: &Node, metal: &NodeDef) -> Edit {
     }
     let links = session.links().iter().filter(|link| link.to.node == *id && !is_input(&link.to.socket));
     let mut edits: Vec<Edit> = links.map(|link| Edit::RemoveLink { link: link.clone() }).collect();
+    // Parameters are of the whole material's graph. From the end, so that places stay what they are.
+    let parameters = session.document().parameters.iter().enumerate().rev().filter(|(_, parameter)| {
+        session.group().is_none() && parameter.socket.node == *id && !is_input(&parameter.socket.socket)
+    });
+    edits.extend(parameters.map(|(place, _)| Edit::RemoveParameter { place }));
     edits.push(Edit::TakeNode { id: id.clone() });
     edits.push(Edit::AddNode { id: id.clone(), node: changed });
     Edit::Many(edits)
