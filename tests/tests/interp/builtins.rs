@@ -36,7 +36,7 @@ const WORDS: [&str; 26] = [
     "u32(clamp(i, -50, 50))",
     "u32(abs(i)) + u32(sign(i))",
     "u32(dot(vec3i(i, 3, i), vec3i(5, i, 7)))",
-    "bitcast<u32>(modf(x).whole + 0.0)",
+    "select(bitcast<u32>(modf(x).whole), 0u, modf(x).whole == 0.0)",
     "bitcast<u32>(round(x * 2.0) + ceil(y) + 0.0)",
     "u32(i32(x * 3.0)) + u32(y * 3.0)",
 ];
