@@ -27,7 +27,7 @@ pub(crate) struct ReportArgs {
     /// Folder for index.html, report.json and the CSV files
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Fewer points and runs: at most two minutes on two cores, and with --compare about two more, for it measures again what seems slower
+    /// Fewer points and runs: about two minutes on two cores, and with --compare about two more, for it measures again what seems slower
     #[arg(long)]
     quick: bool,
     /// Measures this part only; may be given several times
