@@ -76,12 +76,13 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
         let rows = (part.rows)(&run);
         took.push((part, begun.elapsed().as_secs_f64()));
         bar.finish_and_clear();
-        note(format_args!("{}: {} rows", part.name, rows.len()));
-        let left_out = run.left_out();
+        let (count, left_out) = (rows.len(), run.left_out());
+        // Told when it is kept: whoever interrupts the command after that line finds the whole part.
+        kept.part(part.name, rows, left_out.clone())?;
+        note(format_args!("{}: {count} rows", part.name));
         for left in &left_out {
             note(format_args!("not measured: {left}"));
         }
-        kept.part(part.name, rows, left_out)?;
     }
     let report = kept.report();
     let page = args.output.join("index.html");
