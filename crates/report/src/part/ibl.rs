@@ -48,7 +48,7 @@ fn under(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment,
     run.at(first + 0.4);
     rows.extend(seen(effort, name, &maps, &truth));
     run.keep(rows, first + 0.42);
-    rows.extend(diffuse(effort, name, environment, &maps[2], &truth));
+    rows.extend(diffuse(effort, name, &maps, &truth));
     run.keep(rows, first + 0.45);
     rows.extend(split_sum::rows(effort, name, environment, &maps[0]));
     run.keep(rows, first + 0.5);
@@ -76,7 +76,7 @@ fn levels(
     before: &[Row],
 ) -> Vec<Row> {
     let effort = run.effort();
-    let rounds = effort.pick(3, 5);
+    let rounds = effort.pick(2, 5);
     let cases: Vec<(&str, BakeOptions)> = [
         ("ggx preview", Quality::Preview, 128, Prefilter::Ggx),
         ("ggx preview", Quality::Preview, 256, Prefilter::Ggx),
@@ -246,17 +246,11 @@ fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 3], truth: &Quadra
 
 /// Diffuse light from any direction: the cube, harmonics to degree 1, 2 and 3 as they are and windowed, and the report's last
 /// level. A third degree adds nothing: the cosine lobe has none (Ramamoorthi and Hanrahan 2001).
-fn diffuse(
-    effort: Effort,
-    name: &str,
-    environment: &LoadedEnvironment,
-    report: &BakedEnvironment,
-    truth: &Quadrature,
-) -> Vec<Row> {
+fn diffuse(effort: Effort, name: &str, maps: &[BakedEnvironment; 3], truth: &Quadrature) -> Vec<Row> {
     let domain = format!("{name}: irradiance over pi at any direction; relative error against a sum over texels");
     let points: Vec<[f64; 3]> = (0..effort.pick(60, 1000)).map(direction).collect();
     let expected: Vec<_> = points.par_iter().map(|&dir| truth.prefiltered(dir, 1.0)).collect();
-    let baked = bake(environment, &BakeOptions { size: 64, ..BakeOptions::default() });
+    let [baked, _, report] = maps;
     let harmonics = |coefficients: [[f32; 4]; 9], dir: [f64; 3]| irradiance_sh2(coefficients, dir.map(|x| x as f32));
     let plain = baked.irradiance_sh_padded();
     let of_radiance = |order, window, dir| irradiance_from_radiance_sh(&baked.radiance_sh, order, window, dir);

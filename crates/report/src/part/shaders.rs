@@ -360,7 +360,7 @@ fn device_times<'s>(
             let ((_, scene, light), (station, drawn)) = (&different[at], drawn[at]);
             let Some(station) = stations[station].as_ref().filter(|_| drawn) else { continue };
             let pass = || station.draw(scene, Some(light), &options).ok().and_then(|(_, time)| time);
-            let shortest = (0..run.effort().pick(3, 8)).filter_map(|_| pass()).min_by(f64::total_cmp);
+            let shortest = (0..run.effort().pick(2, 8)).filter_map(|_| pass()).min_by(f64::total_cmp);
             times[at].extend(shortest.filter(|time| *time > 0.0));
             run.at(0.5 + 0.5 * (sitting as f64 + done as f64 / all) / SITTINGS as f64);
         }
