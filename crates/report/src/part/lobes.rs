@@ -138,9 +138,8 @@ impl Light {
         let mut errors: [Errors; N] = std::array::from_fn(|_| Errors::default());
         for Case { at, truth, values } in cases {
             for (errors, value) in errors.iter_mut().zip(values) {
-                for c in 0..3 {
-                    errors.add((value[c] - truth[c]) / truth[c].max(FLOOR * mean[c]), || at.clone());
-                }
+                let error = |c: usize| (value[c] - truth[c]) / truth[c].max(FLOOR * mean[c]);
+                errors.add_color(std::array::from_fn(error), || at.clone());
             }
         }
         let domain = format!(
@@ -177,10 +176,7 @@ fn frames(count: usize) -> impl Iterator<Item = Frame<f64>> {
 }
 
 /// The frames with each of some numbers.
-fn with<const N: usize>(
-    count: usize,
-    numbers: [f64; N],
-) -> impl IndexedParallelIterator<Item = (Frame<f64>, f64)> {
+fn with<const N: usize>(count: usize, numbers: [f64; N]) -> impl IndexedParallelIterator<Item = (Frame<f64>, f64)> {
     let all: Vec<_> = frames(count).flat_map(|frame| numbers.map(|number| (frame, number))).collect();
     all.into_par_iter()
 }
