@@ -35,9 +35,9 @@ pub struct DfgTable {
 
 /// Texels along each axis of the table that shaders read: the largest square of f16 pairs within 8 KiB (8,100 bytes).
 ///
-/// Largest error of a + b between texels, as f16: 9e-4 for n.v >= 0.05 and roughness >= 0.089, 2.2e-3 for n.v >= 0.001
-/// and roughness >= 0.02; of b 1.6e-3 and 1.9e-3. Both axes are warped because all of the albedo's steep places lie where
-/// n.v is about alpha and small; `halfvector report` has other layouts.
+/// Largest error between texels, as f16, of a + b or of b: 1.9e-3 for n.v >= 0.05 and roughness >= 0.089, 6.8e-3 for n.v >=
+/// 0.001 and roughness >= 0.02. Both axes are warped because all of the albedo's steep places lie where n.v is about alpha and
+/// small; `halfvector report` searches for these errors and has other layouts.
 pub const DFG_SIZE: usize = 45;
 
 /// Points in each panel of the quadrature: for tables, and where a single value is asked for.

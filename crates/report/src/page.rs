@@ -224,7 +224,7 @@ fn points(rows: &[&Row]) -> String {
     let count = if least == most { least } else { format!("{least} to {most}") };
     let largest = match rows.iter().filter(|row| row.searched).count() {
         0 => "the largest error is the largest of these",
-        found if found == rows.len() => "for the largest error it is searched on from the worst of these",
+        found if found == rows.len() => "the largest error is what a search from the worst of these finds",
         _ => {
             "the largest error is the largest of these, or of a search from the worst of them where that can be larger"
         }
