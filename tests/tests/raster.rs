@@ -163,8 +163,11 @@ fn every_example_looks_the_same_on_the_cpu() {
     if std::env::var(variable).is_err() {
         let this = std::env::current_exe().expect("this program");
         let test = "raster::every_example_looks_the_same_on_the_cpu";
-        let status = Command::new(this).args([test, "--exact", "--nocapture"]).env(variable, value).status();
-        assert!(status.expect("the test starts").success(), "see above");
+        let output = Command::new(this).args([test, "--exact", "--nocapture"]).env(variable, value).output();
+        let output = output.expect("the test starts");
+        let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        println!("{said}");
+        assert!(output.status.success() && said.contains("1 passed"), "see above");
         return;
     }
     let Some(renderer) = renderer() else { return };
