@@ -2,7 +2,7 @@
 
 use halfvector_brdf::albedo::{directional_albedo_ggx_with, gauss_legendre};
 use halfvector_brdf::ggx::{v_smith_ggx_correlated, v_smith_ggx_separable};
-use rayon::prelude::*;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// Which masking and shadowing the albedo is integrated with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -50,18 +50,39 @@ pub fn dfg_table(size: usize) -> DfgTable {
 }
 
 /// The table for a visibility; `size` is held in 2..=1024.
+///
+/// It is made by threads of its own: one of rayon's that waits takes up other work, which may ask for the same table.
 pub fn dfg_table_with(size: usize, visibility: Visibility) -> DfgTable {
     let size = size.clamp(2, 1024);
     let rule = gauss_legendre::<POINTS>();
-    let texels = (0..size * size)
-        .into_par_iter()
-        .map(|k| {
-            let place = |i: usize| i as f64 / (size - 1) as f64;
-            let (n_dot_v, roughness) = (place(k % size).powi(4), place(k / size).powi(2));
-            directional_albedo_ggx_with::<POINTS>(n_dot_v, roughness, visibility.function(), &rule).map(|x| x as f32)
-        })
-        .collect();
+    let place = |i: usize| i as f64 / (size - 1) as f64;
+    let texel = |i: usize, j: usize| {
+        let (n_dot_v, roughness) = (place(i).powi(4), place(j).powi(2));
+        directional_albedo_ggx_with::<POINTS>(n_dot_v, roughness, visibility.function(), &rule).map(|x| x as f32)
+    };
+    let mut texels = vec![[0.0; 2]; size * size];
+    {
+        let rows = Mutex::new(texels.chunks_mut(size).enumerate());
+        let next = || rows.lock().unwrap_or_else(PoisonError::into_inner).next();
+        let fill = || {
+            while let Some((j, row)) = next() {
+                row.iter_mut().enumerate().for_each(|(i, pair)| *pair = texel(i, j));
+            }
+        };
+        let others = std::thread::available_parallelism().map_or(0, |cores| cores.get() - 1);
+        std::thread::scope(|scope| {
+            (0..others.min(size)).for_each(|_| drop(scope.spawn(fill)));
+            fill();
+        });
+    }
     DfgTable { size, texels }
+}
+
+/// The table of [`DFG_SIZE`] that shaders read, made once in a process for each visibility.
+pub fn dfg_table_of_shaders(visibility: Visibility) -> &'static DfgTable {
+    static TABLES: [OnceLock<DfgTable>; 2] = [OnceLock::new(), OnceLock::new()];
+    let table = &TABLES[usize::from(visibility == Visibility::Separable)];
+    table.get_or_init(|| dfg_table_with(DFG_SIZE, visibility))
 }
 
 /// Scale and bias (a, b) of one n.v and perceptual roughness, both held in 0..=1, to 1e-8:

@@ -36,7 +36,7 @@ pub use bake::{
 };
 pub use builtin::{sky, studio, white};
 pub use cube::{Cube, direction_from_face, face_from_direction, texel_solid_angle};
-pub use dfg::{DFG_SIZE, DfgTable, Visibility, dfg, dfg_table, dfg_table_with};
+pub use dfg::{DFG_SIZE, DfgTable, Visibility, dfg, dfg_table, dfg_table_of_shaders, dfg_table_with};
 pub use equirect::{Equirect, direction_from_equirect, equirect_from_direction};
 pub use load::{
     Format, Layout, Limits, LoadError, LoadedEnvironment, Source, StoredLevels, StoredLobe, load, load_faces,

@@ -8,7 +8,7 @@ use halfvector_codegen::reflection::{Resource, TextureSource};
 use halfvector_codegen::uniforms::{FrameValues, ObjectValues, fill_input};
 use halfvector_graph::library::Library;
 use halfvector_graph::value::ColorSpace;
-use halfvector_ibl::{BakedEnvironment, DFG_SIZE, Visibility, dfg_table_with};
+use halfvector_ibl::{BakedEnvironment, Visibility, dfg_table_of_shaders};
 use halfvector_interp::{Resources, Texture};
 use halfvector_scene::{Object, Scene, SceneMaterial};
 
@@ -60,7 +60,7 @@ impl<'e> Textures<'e> {
                     self.irradiance = texture::cube(std::slice::from_ref(&baked.irradiance_over_pi), &[]);
                 }
                 Resource::Texture(TextureSource::Dfg) if self.dfg.is_none() => {
-                    self.dfg = texture::dfg(&dfg_table_with(DFG_SIZE, self.visibility));
+                    self.dfg = texture::dfg(dfg_table_of_shaders(self.visibility));
                 }
                 Resource::Texture(_) | Resource::Uniform(_) | Resource::Sampler(_) => {}
             }

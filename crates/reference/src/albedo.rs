@@ -1,5 +1,7 @@
 //! Directional albedo of the GGX lobe, as it scales other lobes: quadrature at the nodes of a table, cubic between them.
 
+use std::sync::OnceLock;
+
 use halfvector_ibl::{DfgTable, Visibility, dfg_table_with};
 
 /// Nodes along each axis.
@@ -11,9 +13,11 @@ pub(crate) struct Albedo {
 }
 
 impl Albedo {
-    pub(crate) fn new(separable: bool) -> Albedo {
+    /// That of height-correlated or of separable visibility, made once in a process.
+    pub(crate) fn of(separable: bool) -> &'static Albedo {
+        static ALBEDOS: [OnceLock<Albedo>; 2] = [OnceLock::new(), OnceLock::new()];
         let visibility = if separable { Visibility::Separable } else { Visibility::Correlated };
-        Albedo { table: dfg_table_with(SIZE, visibility) }
+        ALBEDOS[usize::from(separable)].get_or_init(|| Albedo { table: dfg_table_with(SIZE, visibility) })
     }
 
     /// The pair, within 1e-4 of the integral for cosines from 1e-3. Both arguments are held in 0..1.
@@ -48,7 +52,7 @@ mod tests {
     #[test]
     fn between_the_nodes_it_is_the_integral() {
         let mut largest: f64 = 0.0;
-        let albedo = Albedo::new(false);
+        let albedo = Albedo::of(false);
         for i in 0..12 {
             for j in 0..12 {
                 let (mu, r) = (((f64::from(i) + 0.37) / 12.0).powi(2), (f64::from(j) + 0.61) / 12.2);

@@ -1,7 +1,5 @@
 //! Which terms a surface is shaded with: the scene's methods, or another renderer's model.
 
-use std::sync::OnceLock;
-
 use halfvector_brdf::anisotropic::v_smith_ggx_anisotropic;
 use halfvector_brdf::beckmann::{d_beckmann, v_smith_beckmann_correlated, v_smith_beckmann_separable};
 use halfvector_brdf::diffuse::{diffuse_burley, diffuse_eon_exact, diffuse_fon, diffuse_lambert, diffuse_oren_nayar};
@@ -54,7 +52,6 @@ pub(crate) struct Model {
     pub(crate) coupling: Coupling,
     pub(crate) conductor: Option<Conductor>,
     separable: bool,
-    albedo: OnceLock<Albedo>,
 }
 
 impl Model {
@@ -103,7 +100,6 @@ impl Model {
             coupling,
             conductor,
             separable,
-            albedo: OnceLock::new(),
         }
     }
 
@@ -122,7 +118,7 @@ impl Model {
 
     /// The pair (a, b) of the GGX lobe's directional albedo f0 a + f90 b.
     pub(crate) fn dfg(&self, n_dot_v: f64, perceptual_roughness: f64) -> [f64; 2] {
-        self.albedo.get_or_init(|| Albedo::new(self.separable)).pair(n_dot_v, perceptual_roughness)
+        Albedo::of(self.separable).pair(n_dot_v, perceptual_roughness)
     }
 }
 

@@ -11,7 +11,7 @@ use halfvector_graph::document::Document;
 use halfvector_graph::library::Library;
 use halfvector_graph::needs::Needs;
 use halfvector_graph::value::ColorSpace;
-use halfvector_ibl::{BakedEnvironment, DFG_SIZE, Visibility, dfg_table_with};
+use halfvector_ibl::{BakedEnvironment, Visibility, dfg_table_of_shaders};
 use halfvector_maps::Image;
 use halfvector_scene::Mesh;
 
@@ -263,7 +263,7 @@ impl Cache {
         let made = &mut self.made;
         let table = || {
             made.textures += 1;
-            texture::dfg(gpu, &dfg_table_with(DFG_SIZE, visibility))
+            texture::dfg(gpu, dfg_table_of_shaders(visibility))
         };
         self.dfg[usize::from(visibility == Visibility::Separable)].get_or_insert_with(table).clone()
     }

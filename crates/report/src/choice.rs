@@ -14,6 +14,9 @@ const STEADY: f64 = 0.1;
 /// what is chosen must not.
 const ALIKE: f64 = 0.5;
 
+/// Errors of which the larger is not this many times the smaller are the same for film.
+const SAME: f64 = 1.05;
+
 /// Shaders whose instructions differ by less are as long.
 const AS_LONG: f64 = 0.05;
 
@@ -34,7 +37,8 @@ pub struct Choice<'c, 'a> {
     pub keeps: bool,
     /// Whether `--method` has no name for it, nor for any other method of the comparison: it is chosen in the library.
     pub library_only: bool,
-    /// What would be taken if the library's other methods could be named, too, where that is another one.
+    /// A method that only the library has and that errs less: for the same cost, or for any where the chosen one is over the
+    /// limit and this one is not, or the budget is film.
     pub of_library: Option<&'c Entry<'a>>,
 }
 
@@ -60,8 +64,22 @@ impl<'a> Comparison<'a> {
             weighed: if named.is_some() { own[0] } else { all[0] },
             keeps: self.keeps(entry, budget),
             library_only: named.is_none(),
-            of_library: (named.is_some() && !known(best)).then_some(best),
+            of_library: self.better_of_library(entry, budget),
         }
+    }
+
+    /// What [`Choice::of_library`] says, for the method that was chosen. Costs are those of the plot, which all methods have.
+    fn better_of_library(&self, chosen: &Entry<'a>, budget: Budget) -> Option<&Entry<'a>> {
+        let floor = self.unit.limit(Budget::Film);
+        let errs_less = |entry: &Entry<'a>| SAME * entry.rms.max(floor) < chosen.rms;
+        let costs_no_more = |entry: &Entry<'a>| entry.cost <= chosen.cost;
+        let is_worth_it = |entry: &Entry<'a>| {
+            let keeps_alone = self.keeps(entry, budget) && !self.keeps(chosen, budget);
+            budget == Budget::Film || keeps_alone || costs_no_more(entry)
+        };
+        let is_alone = |entry: &Entry<'a>| !terms::is_known(self.term, &entry.row.method);
+        // The entries are in order of their errors.
+        self.entries.iter().find(|entry| is_alone(entry) && errs_less(entry) && is_worth_it(entry))
     }
 
     /// The costs that are weighed among some of the methods, one after the other: the device's time and the instructions of the same
@@ -93,7 +111,7 @@ impl<'a> Comparison<'a> {
         let mut taken = within(self.unit.limit(budget));
         if taken.is_empty() || budget == Budget::Film {
             let least = all.iter().map(|entry| entry.rms).fold(f64::INFINITY, f64::min);
-            taken = within((1.05 * least).max(self.unit.limit(Budget::Film)));
+            taken = within((SAME * least).max(self.unit.limit(Budget::Film)));
         } else if budget == Budget::Mobile && all.iter().all(|entry| entry.row.bytes.is_some()) {
             self.retain_cheapest(&mut taken, *costs.first()?, ALIKE);
             let least = taken.iter().filter_map(|entry| entry.row.bytes).min();
@@ -189,6 +207,14 @@ mod tests {
         assert_eq!(film.of_library.map(|entry| entry.row.method.as_str()), Some("eon_exact"));
         let mobile = found[0].recommended(Budget::Mobile);
         assert!(mobile.entry.row.method == "eon" && mobile.of_library.is_none() && mobile.keeps);
+        let said = crate::words::of_library(&found[0], &film).expect("a remark");
+        assert_eq!(said, "library: eon_exact errs 0 % instead of 0.50 %, one call takes 9.0 ns instead of 3.0 ns");
+        // What is dearer and no better, and what is cheaper and worse, is no better choice.
+        for other in [of("eon_exact", 0.0049, 9.0), of("eon_exact", 0.006, 1.0)] {
+            let rows = [rows[0].clone(), rows[1].clone(), other];
+            let found = comparisons(&rows);
+            assert!(Budget::ALL.iter().all(|&budget| found[0].recommended(budget).of_library.is_none()));
+        }
         let rows: Vec<Row> = rows.into_iter().map(|row| Row { term: "normal_blend".into(), ..row }).collect();
         assert!(comparisons(&rows)[0].recommended(Budget::Film).library_only);
     }

@@ -4,6 +4,7 @@
 use crate::Row;
 use crate::choice::steadier;
 use crate::cost::Cost;
+use crate::part::ibl::NOT_TIMED;
 use crate::unit::Unit;
 
 /// A method in a comparison.
@@ -46,7 +47,8 @@ const ALIKE: f64 = 0.02;
 fn groups(rows: &[Row]) -> Vec<(Cost, Vec<usize>)> {
     let mut domains: Vec<Vec<usize>> = Vec::new();
     for (i, row) in rows.iter().enumerate() {
-        if row.error_rms.is_none() {
+        // What is judged and not timed yet has no cost to be weighed by.
+        if row.error_rms.is_none() || row.note.as_deref() == Some(NOT_TIMED) {
             continue;
         }
         let known = domains.iter_mut().find(|group| {
@@ -180,7 +182,8 @@ impl Comparison<'_> {
         }
     }
 
-    fn is_of_bakes(&self) -> bool {
+    /// Whether the costs are those of bakes.
+    pub(crate) fn is_of_bakes(&self) -> bool {
         self.term == "prefilter" && self.cost == Cost::Batch
     }
 }
@@ -209,6 +212,28 @@ mod tests {
         ];
         mark_pareto(&mut rows);
         assert_eq!(rows.iter().map(|r| r.pareto).collect::<Vec<_>>(), [true, false, true, false, false, true]);
+    }
+
+    /// A run that is interrupted before its bakes are timed weighs none of them, by memory either.
+    #[test]
+    fn what_is_not_timed_yet_is_not_weighed() {
+        let of = |method: &str, place: &str, time: Option<f64>| Row {
+            error_rms: Some(if method == "ggx" { 1e-4 } else { 0.05 }),
+            cost_batch_ns: time,
+            bytes: Some(8_000_000),
+            note: time.is_none().then(|| NOT_TIMED.to_owned()),
+            ..Row::new("prefilter", method, &format!("{place}: levels; relative error"))
+        };
+        let mut rows = vec![
+            of("ggx", "studio", Some(900.0)),
+            of("hdre", "studio", Some(500.0)),
+            of("ggx", "sky", None),
+            of("hdre", "sky", None),
+        ];
+        mark_pareto(&mut rows);
+        assert_eq!(rows.iter().map(|row| row.pareto).collect::<Vec<_>>(), [true, true, false, false]);
+        let found = comparisons(&rows);
+        assert_eq!((found.len(), found[0].cost, found[0].domains.len()), (1, Cost::Batch, 1));
     }
 
     #[test]

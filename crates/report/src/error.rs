@@ -9,18 +9,41 @@ pub struct Errors {
     squares: f64,
     count: u64,
     at: String,
+    inputs: u64,
+    searched: bool,
 }
 
 impl Errors {
     /// Adds one error (its sign does not matter; NaN counts as infinite); `at` describes the input, and is asked for a
     /// new largest only.
     pub fn add(&mut self, error: f64, at: impl FnOnce() -> String) {
+        self.inputs += 1;
+        self.add_one(error, at);
+    }
+
+    /// Adds the errors of the three numbers of a colour, which are of one input.
+    pub fn add_color(&mut self, errors: [f64; 3], at: impl Fn() -> String) {
+        self.inputs += 1;
+        errors.into_iter().for_each(|error| self.add_one(error, &at));
+    }
+
+    fn add_one(&mut self, error: f64, at: impl FnOnce() -> String) {
         let error = if error.is_nan() { f64::INFINITY } else { error.abs() };
         if error > self.max || self.count == 0 {
             (self.max, self.at) = (error, at());
         }
         self.squares += error * error;
         self.count += 1;
+    }
+
+    /// Takes what a search found beyond the errors that were added: the largest may be larger, the mean square stays that of the
+    /// added ones.
+    pub(crate) fn search(&mut self, found: f64, at: impl FnOnce() -> String) {
+        self.searched = true;
+        let found = if found.is_nan() { f64::INFINITY } else { found.abs() };
+        if found > self.max {
+            (self.max, self.at) = (found, at());
+        }
     }
 
     /// The largest.
@@ -36,6 +59,7 @@ impl Errors {
     /// Puts the figures into a row.
     pub fn fill(&self, row: &mut crate::Row) {
         (row.error_max, row.error_rms, row.at) = (Some(self.max), Some(self.rms()), Some(self.at.clone()));
+        (row.points, row.searched) = (Some(self.inputs), self.searched);
     }
 }
 

@@ -22,6 +22,7 @@ pub mod plot;
 pub mod publish;
 mod report;
 mod row;
+mod search;
 mod terms;
 pub mod timing;
 pub mod unit;

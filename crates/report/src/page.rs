@@ -28,7 +28,7 @@ pub fn html(report: &Report) -> String {
         .collect();
     let names: Vec<&str> = chapters.iter().map(|(term, _)| *term).collect();
     head(report, &comparisons, &names, &mut page);
-    choices(&comparisons, &mut page);
+    choices(report, &comparisons, &mut page);
     for (term, text) in chapters {
         let _ = writeln!(
             page,
@@ -114,7 +114,7 @@ fn counted(report: &Report) -> String {
     }
 }
 
-fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
+fn choices(report: &Report, comparisons: &[Comparison<'_>], page: &mut String) {
     if comparisons.is_empty() {
         return;
     }
@@ -128,34 +128,42 @@ fn choices(comparisons: &[Comparison<'_>], page: &mut String) {
          to run: those that differ by less than 50 %, or by less than their spreads, are alike, as are instructions that differ by less than \
          5 %. For mobile memory comes first, where it is known of all: of those that take up to half as long again as the cheapest, the one \
          that reads the least.</li>\n<li>Of methods that are alike in all this it is the most <b>accurate</b>, and of equals that which \
-         <code>halfvector methods</code> lists first.</li></ul>\n<p>Only what <code>--method</code> knows is recommended; where the library alone \
-         has something better it is named below.</p>\n<section class=\"card\"><div class=\"scroll\"><table class=\"choices\"><thead><tr><th>term</th>\
+         <code>halfvector methods</code> lists first.</li></ul>\n<p>Only what <code>--method</code> knows is recommended. Where the library alone has a method that errs \
+         less it is named below, with what it costs: where that is no more, or only it keeps the limit, and for film at any \
+         cost.</p>\n{}<section class=\"card\"><div class=\"scroll\"><table class=\"choices\"><thead><tr><th>term</th>\
          <th>mobile</th><th>desktop</th><th>film</th></tr></thead><tbody>\n",
         words::limits(Budget::Mobile),
         words::limits(Budget::Desktop),
         device(comparisons).map_or(String::new(), |name| format!(" ({})", escaped(name))),
+        if comparisons.iter().any(|comparison| !report.unfinished(comparison.term).is_empty()) {
+            "<p><b>This run is not whole.</b> What is marked incomplete was chosen among what was measured, and may be another method \
+             when the parts that stand there are measured to their end.</p>\n"
+        } else {
+            ""
+        },
     );
     for comparison in comparisons {
+        let unfinished = report.unfinished(comparison.term);
+        let unfinished = match unfinished[..] {
+            [] => String::new(),
+            _ => format!("<br><span class=\"tag plain\">incomplete: {}</span>", escaped(&unfinished.join(", "))),
+        };
         let truth = words::against(comparison.domains[0]).split_once("against ").map_or("", |(_, truth)| truth);
         let inputs = words::inputs(&comparison.domains) + if truth.is_empty() { "" } else { "; against " } + truth;
         let _ = write!(
             page,
-            "<tr><td class=\"term\"><a href=\"#{0}\"><code>{0}</code></a><br><span class=\"small muted\">{1}</span></td>",
+            "<tr><td class=\"term\"><a href=\"#{0}\"><code>{0}</code></a>{unfinished}<br><span class=\"small muted\">{1}</span></td>",
             escaped(comparison.term),
             escaped(&inputs)
         );
         for budget in Budget::ALL {
-            let Choice { entry, weighed, keeps, library_only, of_library } = comparison.recommended(budget);
+            let choice = comparison.recommended(budget);
+            let Choice { entry, weighed, keeps, library_only, .. } = choice;
             let figures = figures(comparison, entry, weighed);
             let over = if keeps { "" } else { "<span class=\"tag plain\">over the limit</span>" };
             let tag = if library_only { "<span class=\"tag plain\">library only</span>" } else { "" };
-            let of_library = of_library.map_or(String::new(), |entry| {
-                format!(
-                    "<br><span class=\"small muted\">library: {}, {}</span>",
-                    escaped(&entry.row.method),
-                    escaped(&words::error(entry.rms, comparison.unit))
-                )
-            });
+            let of_library = words::of_library(comparison, &choice)
+                .map_or(String::new(), |remark| format!("<br><span class=\"small muted\">{}</span>", escaped(&remark)));
             let _ = write!(
                 page,
                 "<td data-label=\"{}\"><b>{}</b>{tag}{over}<br><span class=\"muted\">{}</span>{of_library}</td>",

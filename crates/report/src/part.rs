@@ -125,7 +125,7 @@ impl Part {
 
 /// All parts, in the order shown.
 pub const PARTS: &[Part] = &[
-    Part { name: "shaders", rows: shaders::rows },
+    Part { name: shaders::PART, rows: shaders::rows },
     Part { name: "brdf", rows: brdf::rows },
     Part { name: "energy", rows: energy::rows },
     Part { name: "maps", rows: maps::rows },

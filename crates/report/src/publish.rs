@@ -76,7 +76,8 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
          or by less than their spreads, are alike, as are instructions that differ by less than 5 %. For mobile memory comes first, where it is \
          known of all: of those that take up to half as long again as the cheapest, the one that reads the least.\n* Of methods that are alike \
          in all this it is the most accurate, and of equals that which `halfvector methods` lists first.\n\nOnly what `--method` knows is \
-         recommended, and what the library alone has stands behind it.\n\n\
+         recommended. Where the library alone has a method that errs less it stands behind, with what it costs: where that is no \
+         more, or only it keeps the limit, and for film at any cost.\n\n\
          | term | inputs | mobile | desktop | film |\n|---|---|---|---|---|\n",
         report.machine,
         report.date,
@@ -102,7 +103,10 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
             let text = said(choice.entry);
             let text = if choice.keeps { text } else { format!("{text}, *over the limit*") };
             let text = if choice.library_only { format!("{text}, library only") } else { text };
-            choice.of_library.map_or(text.clone(), |entry| format!("{text}; library: {}", said(entry)))
+            match words::of_library(comparison, &choice) {
+                Some(remark) => format!("{text}; {}", cell(&remark)),
+                None => text,
+            }
         });
         let inputs = words::inputs(&comparison.domains);
         let _ = writeln!(page, "| `{}` | {} | {} |", comparison.term, cell(&inputs), chosen.join(" | "));

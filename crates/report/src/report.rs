@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::missing::{self, LeftOut, Null};
 use crate::part::shaders;
-use crate::{Effort, Row, mark_pareto, write};
+use crate::{Effort, PARTS, Row, mark_pareto, write};
 
 /// What `report.json` holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -85,6 +85,15 @@ impl Report {
     /// The rows of a part.
     pub fn rows_of(&self, part: &str) -> Vec<Row> {
         self.rows.iter().filter(|row| row.part == part).cloned().collect()
+    }
+
+    /// The parts of which a term's choice wants more than there is: those that were not measured to their end, and that of the
+    /// shaders where the term has some.
+    pub fn unfinished(&self, term: &str) -> Vec<&str> {
+        let is_whole = |part: &str| self.parts.iter().any(|name| name == part);
+        let of_term = |part: &str| self.rows.iter().any(|row| row.term == term && row.part == part);
+        let wants = |part: &str| of_term(part) || (part == shaders::PART && shaders::has(term));
+        PARTS.iter().map(|part| part.name).filter(|part| wants(part) && !is_whole(part)).collect()
     }
 
     /// Reads `report.json`.

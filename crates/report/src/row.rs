@@ -25,6 +25,12 @@ pub struct Row {
     /// Where the error is lost in the noise of its truth, so that `error_rms` is null: the rms error is at most this, by two
     /// standard errors.
     pub error_bound: Option<f64>,
+    /// How many inputs the errors are of; none in rows of before they were counted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<u64>,
+    /// Whether the largest error was searched for, from the worst of these inputs on; else it is the largest of them.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub searched: bool,
     /// The input of the largest error.
     pub at: Option<String>,
     /// Of a picture: mean FLIP, how different it looks, 0 to 1. Andersson et al. 2021, "Visualizing and Communicating Errors in

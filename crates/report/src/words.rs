@@ -1,6 +1,7 @@
 //! Numbers and findings in words: what a plot shows, said from its data.
 
 use crate::Row;
+use crate::choice::Choice;
 use crate::comparison::{Comparison, Entry, alike as alike_within};
 use crate::cost::Cost;
 use crate::unit::{Budget, Unit};
@@ -86,6 +87,23 @@ pub fn cost(x: f64, kind: Cost) -> String {
         _ if x >= 1e4 => format!("{} µs", number(x / 1e3)),
         _ => format!("{} ns", number(x)),
     }
+}
+
+/// What the library alone has in the place of a choice: what it errs and what it costs, beside the choice.
+pub fn of_library(comparison: &Comparison<'_>, choice: &Choice<'_, '_>) -> Option<String> {
+    let other = choice.of_library?;
+    let [errs, instead] = [other, choice.entry].map(|entry| error(entry.rms, comparison.unit));
+    let [takes, chosen] = [other, choice.entry].map(|entry| cost(entry.cost, comparison.cost));
+    let takes = if takes == chosen { format!("{takes} like it") } else { format!("{takes} instead of {chosen}") };
+    let what = match comparison.cost {
+        _ if comparison.is_of_bakes() => "a texel of a bake takes",
+        Cost::Batch => "an element of a batch takes",
+        Cost::Call => "one call takes",
+        Cost::Bytes => "reads",
+        Cost::Device => "a pixel on the device takes",
+        Cost::Instructions => "has a shader of",
+    };
+    Some(format!("library: {} errs {errs} instead of {instead}, {what} {takes}", other.row.method))
 }
 
 /// Times are called alike up to this ratio where one of them is named as fast.

@@ -13,7 +13,7 @@ pub fn is_csv_head(line: &str) -> bool {
 /// The rows as CSV, with a line of names; a figure that does not apply is empty.
 pub fn csv(rows: &[Row]) -> String {
     let mut text =
-        "term,method,domain,error_max,error_rms,error_bound,at,flip,not_finite,first_failure,cost_ns,cost_spread,cost_batch_ns,cost_batch_spread,yardstick_ns,instructions,\
+        "term,method,domain,error_max,error_rms,error_bound,points,searched,at,flip,not_finite,first_failure,cost_ns,cost_spread,cost_batch_ns,cost_batch_spread,yardstick_ns,instructions,\
          gpu_ns,gpu_spread,gpu,bytes,note,recorded,pareto\n"
             .to_owned();
     for row in rows {
@@ -27,6 +27,8 @@ pub fn csv(rows: &[Row]) -> String {
             number(row.error_max),
             number(row.error_rms),
             number(row.error_bound),
+            count(row.points),
+            if row.searched { "true".to_owned() } else { String::new() },
             word(&row.at),
             number(row.flip),
             count(row.not_finite),
@@ -94,7 +96,10 @@ mod tests {
     fn text_with_commas_stays_one_field() {
         let row = Row { at: Some("n.v = 0, \"floor\"".into()), error_max: Some(0.5), ..Row::new("d", "ggx", "a, b") };
         let text = csv(std::slice::from_ref(&row));
-        assert_eq!(text.lines().nth(1), Some("d,ggx,\"a, b\",5e-1,,,\"n.v = 0, \"\"floor\"\"\",,,,,,,,,,,,,,,,false"));
+        assert_eq!(
+            text.lines().nth(1),
+            Some("d,ggx,\"a, b\",5e-1,,,,,\"n.v = 0, \"\"floor\"\"\",,,,,,,,,,,,,,,,false")
+        );
         let columns = |line: usize| {
             text.lines().nth(line).map(|line| line.replace("a, b", "").replace("0, ", "").split(',').count())
         };

@@ -2,7 +2,7 @@
 
 use halfvector_codegen::reflection::SamplerSource;
 use halfvector_graph::value::{ColorSpace, Filter, Type, Wrap};
-use halfvector_ibl::{BakedEnvironment, Cube, DFG_SIZE, Visibility, dfg_table_with};
+use halfvector_ibl::{BakedEnvironment, Cube, Visibility, dfg_table_of_shaders};
 use halfvector_maps::{Image, Texels};
 use halfvector_scene::texels::{TexelFormat, cube_bytes, dfg_bytes, image_bytes};
 use halfvector_scene::texture_levels;
@@ -64,8 +64,8 @@ fn cube(levels: &[Cube], slopes: &[Vec<f32>]) -> Value {
 
 /// The table of (scale, bias).
 pub(crate) fn dfg(visibility: Visibility) -> Value {
-    let table = dfg_table_with(DFG_SIZE, visibility);
-    texture("rg16float", 4, 1, vec![[table.size as u32; 2]], &dfg_bytes(&table))
+    let table = dfg_table_of_shaders(visibility);
+    texture("rg16float", 4, 1, vec![[table.size as u32; 2]], &dfg_bytes(table))
 }
 
 /// `texel`: bytes of one. Half floats stand in the page as `differences`, and the page is told how many a texel has.

@@ -17,8 +17,16 @@ pub(super) fn grown(pairs: &[Pair<'_>]) -> Vec<Change> {
     pairs.iter().filter(|pair| !is_elsewhere(pair)).flat_map(|&(old, new)| of_row(old, new)).collect()
 }
 
+/// Whether the errors of two rows are of the same inputs, as far as they are counted, and found in the same way.
+fn is_alike(old: &Row, new: &Row) -> bool {
+    (old.points, old.searched) == (new.points, new.searched)
+}
+
 fn of_row(old: &Row, new: &Row) -> Vec<Change> {
     let mut changes = Vec::new();
+    if !is_alike(old, new) {
+        return changes;
+    }
     let kinds: [Figure; 2] = [("rms error", |row| row.error_rms), ("largest error", |row| row.error_max)];
     for (name, error) in kinds {
         // An infinite error is null in the file: a row that had a finite one has lost it. But where noise hides the error it is not

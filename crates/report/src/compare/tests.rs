@@ -71,6 +71,16 @@ fn a_batch_has_its_own_spread_and_needs_a_difference_that_is_seen() {
     assert_eq!(changes(&old, &new)[0].figure, "an element of a batch");
 }
 
+/// Errors of other inputs, or found by another search, are not held against each other.
+#[test]
+fn errors_of_other_points_are_not_compared() {
+    let old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.3]);
+    let mut new = report([1.0, 2.0, 4.0], [0.1, 0.9, 0.3]);
+    assert_eq!(whats(&old, &new), ["less accurate"]);
+    new.rows[1].points = Some(16_384);
+    assert_eq!(changes(&old, &new), []);
+}
+
 #[test]
 fn longer_shaders_are_told() {
     let mut old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.3]);

@@ -1,8 +1,9 @@
-//! Terms of the BRDF: each form in f32 against itself in f64, and against the exact form it stands for. Times of one call
-//! and of an element of a batch with the widest vectors of the machine.
+//! Terms of the BRDF: each form in f32 against itself in f64, and against the exact form it stands for; the largest error is
+//! searched for. Times of one call and of an element of a batch with the widest vectors of the machine.
 
 use crate::error::{Errors, named};
 use crate::placed::Columns;
+use crate::search::CHEAP;
 use crate::timing::{Candidate, SITTINGS, measured};
 use crate::{Effort, Row, Run};
 use halfvector_brdf::Real;
@@ -24,6 +25,7 @@ use halfvector_brdf::multiscatter::{energy_compensation, energy_compensation_fde
 use halfvector_brdf::sheen::{d_charlie, v_neubelt};
 use halfvector_brdf::thin_film::f_thin_film;
 use halfvector_brdf::visibility::{v_cook_torrance, v_hammon, v_kelemen, v_schlick_smith};
+use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 
@@ -37,23 +39,23 @@ const F0: [f64; 3] = [0.9, 0.6, 0.3];
 const BATCH: usize = 1024;
 
 /// Calls a form once for each point and adds the results up.
-type Calls<const N: usize> = Box<dyn Fn(&[[f32; N]]) -> f64>;
+type Calls<const N: usize> = Box<dyn Fn(&[[f32; N]]) -> f64 + Sync>;
 
 /// Runs a form over a batch: slices of each argument, and of the results.
-type Batch<const N: usize> = Box<dyn Fn([&[f32]; N], &mut [f32])>;
+type Batch<const N: usize> = Box<dyn Fn([&[f32]; N], &mut [f32]) + Sync>;
 
 /// A form in every arithmetic.
 struct Form<const N: usize> {
     name: &'static str,
-    single: Box<dyn Fn([f32; N]) -> f32>,
-    exact: Box<dyn Fn([f64; N]) -> f64>,
+    single: Box<dyn Fn([f32; N]) -> f32 + Sync>,
+    exact: Box<dyn Fn([f64; N]) -> f64 + Sync>,
     /// All points, one call each.
     calls: Calls<N>,
     batch: Batch<N>,
 }
 
 impl<const N: usize> Form<N> {
-    fn new<K: Kernel<N, 1> + Copy + 'static>(name: &'static str, kernel: K) -> Self {
+    fn new<K: Kernel<N, 1> + Copy + Sync + 'static>(name: &'static str, kernel: K) -> Self {
         Self {
             name,
             single: Box::new(move |x| kernel.call(x)[0]),
@@ -83,6 +85,9 @@ macro_rules! form {
     }};
 }
 
+/// A place in the unit cube: of points that have fewer numbers the last ones do not count.
+type Cube = [f64; 5];
+
 /// Forms of one term, on one set of points.
 struct Group<const N: usize> {
     term: &'static str,
@@ -90,7 +95,8 @@ struct Group<const N: usize> {
     points_are: String,
     /// What the numbers of a point are: a name, and how many of them it is of.
     names: &'static [(&'static str, usize)],
-    points: Vec<[f32; N]>,
+    /// The point at each place of the unit cube.
+    point: Box<dyn Fn(Cube) -> [f32; N] + Sync>,
     forms: Vec<Form<N>>,
 }
 
@@ -98,7 +104,7 @@ struct Group<const N: usize> {
 struct Against<'a, const N: usize> {
     name: &'static str,
     /// `None` is each form itself in f64.
-    truth: Option<&'a dyn Fn([f64; N]) -> f64>,
+    truth: Option<&'a (dyn Fn([f64; N]) -> f64 + Sync)>,
     /// The error is relative to the truth, or to this where the truth is less.
     floor: f64,
 }
@@ -120,7 +126,9 @@ impl<const N: usize> Against<'_, N> {
 
 impl<const N: usize> Group<N> {
     fn rows(&self, effort: Effort, against: &[Against<'_, N>]) -> Vec<Row> {
-        let points = &self.points;
+        // Points that are timed are few: their errors are those of more.
+        let points: Vec<[f32; N]> = spread(effort.pick(1 << 11, 1 << 14)).map(&self.point).collect();
+        let points = &points;
         // As many as stay in the nearest cache, so that the time is the form's and not the memory's.
         let batch = points.len().min(BATCH);
         let columns: [Vec<f32>; N] = std::array::from_fn(|i| points[..batch].iter().map(|x| x[i]).collect());
@@ -140,41 +148,46 @@ impl<const N: usize> Group<N> {
         let mut candidates: Vec<_> = runs.iter_mut().map(|run| run.as_mut() as Candidate<'_>).collect();
         let times = measured(&mut candidates, effort.pick(20, 200));
 
-        let mut rows = Vec::new();
-        for against in against {
+        let places: Vec<Cube> = spread(effort.pick(1 << 14, 1 << 16)).collect();
+        let cases: Vec<_> =
+            against.iter().flat_map(|against| (0..self.forms.len()).map(move |i| (against, i))).collect();
+        let row = |(against, i): (&Against<'_, N>, usize)| {
             let domain = format!("{}; {} against {}", self.points_are, against.errors(), against.name);
-            for (i, form) in self.forms.iter().enumerate() {
-                let mut errors = Errors::default();
-                for &x in points {
-                    let wide = x.map(f64::from);
-                    let truth = against.truth.map_or_else(|| (form.exact)(wide), |truth| truth(wide));
-                    let error = (f64::from((form.single)(x)) - truth) / truth.abs().max(against.floor);
-                    errors.add(error, || named(self.names, &x));
-                }
-                let mut row = Row::new(self.term, form.name, &domain);
-                errors.fill(&mut row);
-                row.take_time(times[2 * i], points.len());
-                row.take_batch_time(times[2 * i + 1], batch);
-                rows.push(row);
-            }
-        }
-        rows
+            let form = &self.forms[i];
+            let mut row = Row::new(self.term, form.name, &domain);
+            self.errors(form, against, &places).fill(&mut row);
+            row.take_time(times[2 * i], points.len());
+            row.take_batch_time(times[2 * i + 1], batch);
+            row
+        };
+        cases.into_par_iter().map(row).collect()
+    }
+
+    /// The errors of a form at some places, and the largest that a search from there finds.
+    fn errors(&self, form: &Form<N>, against: &Against<'_, N>, places: &[Cube]) -> Errors {
+        let error = |place: Cube| {
+            let x = (self.point)(place);
+            let wide = x.map(f64::from);
+            let truth = against.truth.map_or_else(|| (form.exact)(wide), |truth| truth(wide));
+            ((f64::from((form.single)(x)) - truth) / truth.abs().max(against.floor)).abs()
+        };
+        CHEAP.errors(places.iter().copied(), error, |place| named(self.names, &(self.point)(place)))
     }
 }
 
 /// Measures the part.
 pub fn rows(run: &Run<'_>) -> Vec<Row> {
-    const GROUPS: [fn(Effort, usize) -> Vec<Row>; 11] =
+    const GROUPS: [fn(Effort) -> Vec<Row>; 11] =
         [d, sheen, v, v_beckmann, v_anisotropic, dielectric, conductor, thin_film, diffuse, compensation, specular];
     let effort = run.effort();
-    run.pieces(&GROUPS, |group| group(effort, effort.pick(1 << 11, 1 << 14)))
+    run.pieces(&GROUPS, |group| group(effort))
 }
 
-/// Evenly spread points of the unit cube: multiples of irrational numbers. Roberts 2018, The Unreasonable Effectiveness of
+/// Evenly spread places of the unit cube: multiples of irrational numbers. Roberts 2018, The Unreasonable Effectiveness of
 /// Quasirandom Sequences.
-fn spread(count: usize) -> impl Iterator<Item = [f64; 4]> {
-    const STEPS: [f64; 4] =
-        [0.856_674_883_854_502_9, 0.733_891_856_627_126, 0.628_706_721_037_865, 0.538_597_257_223_612];
+fn spread(count: usize) -> impl Iterator<Item = Cube> {
+    const STEPS: Cube =
+        [0.856_674_883_854_502_9, 0.733_891_856_627_126, 0.628_706_721_037_865, 0.538_597_257_223_612, 0.461_430_9];
     (0..count).map(|k| STEPS.map(|step| (0.5 + step * k as f64).fract()))
 }
 
@@ -183,31 +196,31 @@ const HALF_ANGLES: &[(&str, usize)] = &[("n.h", 1), ("1 - n.h^2", 1), ("alpha", 
 const COSINES: &[(&str, usize)] = &[("n.v", 1), ("n.l", 1), ("l.h", 1), ("alpha", 1)];
 
 /// n.h, sin^2 and alpha: half vectors dense about the normal.
-fn half_angles(count: usize) -> Vec<[f32; 3]> {
-    let point = |[a, r, ..]: [f64; 4]| {
-        let (sine, cosine) = (FRAC_PI_2 * a * a).sin_cos();
-        let roughness = 0.045 + 0.955 * r;
-        [cosine, sine * sine, roughness * roughness].map(|x| x as f32)
-    };
-    spread(count).map(point).collect()
+fn half_angles([a, r, ..]: Cube) -> [f32; 3] {
+    let (sine, cosine) = (FRAC_PI_2 * a * a).sin_cos();
+    let roughness = 0.045 + 0.955 * r;
+    [cosine, sine * sine, roughness * roughness].map(|x| x as f32)
 }
 
-/// n.v, n.l, l.h and a fourth argument; the cosines logarithmic from 0.01.
-fn cosines(count: usize, fourth: impl Fn(f64) -> f64) -> Vec<[f32; 4]> {
-    let point = |[v, l, phi, x]: [f64; 4]| {
-        let (v, l) = (0.01_f64.powf(v), 0.01_f64.powf(l));
-        let l_dot_v = v * l + ((1.0 - v * v) * (1.0 - l * l)).sqrt() * (2.0 * FRAC_PI_2 * phi).cos();
-        [v, l, (0.5 + 0.5 * l_dot_v).max(0.0).sqrt(), fourth(x)].map(|x| x as f32)
-    };
-    spread(count).map(point).collect()
+/// n.v, n.l, l.h and a fourth argument; the cosines logarithmic from 0.01, at any azimuth between both directions.
+fn cosines([v, l, phi, x, _]: Cube, fourth: impl Fn(f64) -> f64) -> [f32; 4] {
+    let (v, l) = (0.01_f64.powf(v), 0.01_f64.powf(l));
+    let l_dot_v = v * l + ((1.0 - v * v) * (1.0 - l * l)).sqrt() * (2.0 * FRAC_PI_2 * phi).cos();
+    [v, l, (0.5 + 0.5 * l_dot_v).max(0.0).sqrt(), fourth(x)].map(|x| x as f32)
 }
 
-fn d(effort: Effort, count: usize) -> Vec<Row> {
+/// A unit direction of this cosine, which is 0..1, and a share of the whole turn.
+fn direction(z: f64, turn: f64) -> [f64; 3] {
+    let (sine, phi) = ((1.0 - z * z).sqrt(), 4.0 * FRAC_PI_2 * turn);
+    [sine * phi.cos(), sine * phi.sin(), z]
+}
+
+fn d(effort: Effort) -> Vec<Row> {
     let group = Group {
         term: "d",
         points_are: "half vectors 0..90 deg, dense at the normal, roughness 0.045..1".into(),
         names: HALF_ANGLES,
-        points: half_angles(count),
+        point: Box::new(half_angles),
         forms: vec![
             form!(3, "ggx", [n_dot_h, sin2, alpha] => d_ggx(n_dot_h, sin2, alpha)),
             form!(3, "ggx_anisotropic", [n_dot_h, sin2, alpha] =>
@@ -220,42 +233,37 @@ fn d(effort: Effort, count: usize) -> Vec<Row> {
     group.rows(effort, &[Against::itself(1e-6), against])
 }
 
-fn sheen(effort: Effort, count: usize) -> Vec<Row> {
+fn sheen(effort: Effort) -> Vec<Row> {
     let d = Group {
         term: "sheen",
         points_are: "D of half vectors 0..90 deg, dense at the normal, roughness 0.045..1".into(),
         names: HALF_ANGLES,
-        points: half_angles(count),
+        point: Box::new(half_angles),
         forms: vec![form!(3, "charlie", [n_dot_h, sin2, alpha] => d_charlie(n_dot_h, sin2, alpha))],
     };
     let albedo = Group {
         term: "sheen",
         points_are: "directional albedo of directions 0..90 deg, dense at the normal, roughness 0.045..1".into(),
         names: &[("n.v", 1), ("1 - n.v^2", 1), ("alpha", 1)],
-        points: half_angles(count),
+        point: Box::new(half_angles),
         forms: vec![form!(3, "charlie", [n_dot_w, _, alpha] => sheen_albedo(n_dot_w, alpha.sqrt()))],
     };
     [d, albedo].iter().flat_map(|group| group.rows(effort, &[Against::itself(1e-2)])).collect()
 }
 
 /// The whole specular lobe: as one point is shaded, and as batches compute it.
-fn specular(effort: Effort, count: usize) -> Vec<Row> {
-    let direction = |z: f64, phi: f64| {
-        let (sine, phi) = ((1.0 - z * z).sqrt(), 4.0 * FRAC_PI_2 * phi);
-        [sine * phi.cos(), sine * phi.sin(), z]
-    };
-    let point = |([vz, phi, lz, psi], roughness): ([f64; 4], f64)| {
-        let ([vx, vy, vz], [lx, ly, lz]) = (direction(vz, phi), direction(lz, psi));
+fn specular(effort: Effort) -> Vec<Row> {
+    let point = |[vz, phi, lz, psi, r]: Cube| {
+        let ([vx, vy, vz], [lx, ly, lz], roughness) = (direction(vz, phi), direction(lz, psi), 0.3 + 0.7 * r);
         [vx, vy, vz, lx, ly, lz, roughness * roughness].map(|x| x as f32)
     };
-    let roughness = (0..count).map(|k| 0.3 + 0.7 * (0.5 + 0.461_430_9 * k as f64).fract());
     let group = Group {
         term: "specular",
         points_are:
             "sum of r, g, b of D V F n.l, f0 0.9, 0.6, 0.3, any two directions above the surface, roughness 0.3..1"
                 .into(),
         names: &[("view", 3), ("light", 3), ("alpha", 1)],
-        points: spread(count).zip(roughness).map(point).collect(),
+        point: Box::new(point),
         forms: vec![
             form!(7, "specular_eval", [vx, vy, vz, lx, ly, lz, alpha] => {
                 let frame = frame_from_normal([R::ZERO, R::ZERO, R::ONE], [vx, vy, vz]);
@@ -272,12 +280,12 @@ fn specular(effort: Effort, count: usize) -> Vec<Row> {
     group.rows(effort, &[Against::itself(1e-3)])
 }
 
-fn v(effort: Effort, count: usize) -> Vec<Row> {
+fn v(effort: Effort) -> Vec<Row> {
     let group = Group {
         term: "v",
-        points_are: "n.v and n.l logarithmic in 0.01..1, alpha logarithmic in 0.002..1".into(),
+        points_are: "n.v and n.l logarithmic in 0.01..1 at any azimuth, alpha logarithmic in 0.002..1".into(),
         names: COSINES,
-        points: cosines(count, |x| 0.002_f64.powf(x)),
+        point: Box::new(|place| cosines(place, |x| 0.002_f64.powf(x))),
         forms: vec![
             form!(4, "correlated", [v, l, h, alpha] => v_smith_ggx_correlated(v, l, h, alpha)),
             form!(4, "separable", [v, l, h, alpha] => v_smith_ggx_separable(v, l, h, alpha)),
@@ -295,12 +303,12 @@ fn v(effort: Effort, count: usize) -> Vec<Row> {
     group.rows(effort, &[Against::itself(0.0), Against { name, truth: Some(&smith), floor: 0.0 }])
 }
 
-fn v_beckmann(effort: Effort, count: usize) -> Vec<Row> {
+fn v_beckmann(effort: Effort) -> Vec<Row> {
     let group = Group {
         term: "v",
-        points_are: "n.v and n.l logarithmic in 0.01..1, alpha logarithmic in 0.002..1".into(),
+        points_are: "n.v and n.l logarithmic in 0.01..1 at any azimuth, alpha logarithmic in 0.002..1".into(),
         names: COSINES,
-        points: cosines(count, |x| 0.002_f64.powf(x)),
+        point: Box::new(|place| cosines(place, |x| 0.002_f64.powf(x))),
         forms: vec![
             form!(4, "beckmann_exact", [v, l, h, alpha] => v_smith_beckmann_exact(v, l, h, alpha)),
             form!(4, "beckmann_correlated", [v, l, h, alpha] => v_smith_beckmann_correlated(v, l, h, alpha)),
@@ -312,37 +320,35 @@ fn v_beckmann(effort: Effort, count: usize) -> Vec<Row> {
     group.rows(effort, &[Against { name, truth: Some(&smith), floor: 0.0 }])
 }
 
-fn v_anisotropic(effort: Effort, count: usize) -> Vec<Row> {
+fn v_anisotropic(effort: Effort) -> Vec<Row> {
+    let point = |[vz, phi, lz, psi, a]: Cube| {
+        let [[vx, vy, vz], [lx, ly, lz]] = [[vz, phi], [lz, psi]].map(|[z, turn]| direction(0.01_f64.powf(z), turn));
+        [vx, vy, vz, lx, ly, lz, 0.002_f64.powf(a)].map(|x| x as f32)
+    };
     let group = Group {
         term: "v",
-        points_are: "n.v and n.l logarithmic in 0.01..1 in one plane with the tangent, alphas of ratio 4, logarithmic"
-            .into(),
-        names: &[("n.v", 1), ("n.l", 1), ("l.h", 1), ("alpha along the tangent", 1)],
-        points: cosines(count, |x| 0.002_f64.powf(x)),
-        forms: vec![form!(4, "ggx_anisotropic", [v, l, _, alpha] => {
-            let along = |cosine: R| [(R::ONE - cosine * cosine).max(R::ZERO).sqrt(), R::ZERO, cosine];
-            v_smith_ggx_anisotropic(along(v), along(l), alpha, alpha * R::of(0.25))
-        })],
+        points_are:
+            "n.v and n.l logarithmic in 0.01..1, each at any azimuth from the tangent, alphas of ratio 4, logarithmic"
+                .into(),
+        names: &[("view", 3), ("light", 3), ("alpha along the tangent", 1)],
+        point: Box::new(point),
+        forms: vec![form!(7, "ggx_anisotropic", [vx, vy, vz, lx, ly, lz, alpha] =>
+            v_smith_ggx_anisotropic([vx, vy, vz], [lx, ly, lz], alpha, alpha * R::of(0.25)))],
     };
     group.rows(effort, &[Against::itself(0.0)])
-}
-
-/// l.h evenly in 0..1.
-fn incidences(count: usize) -> Vec<[f32; 1]> {
-    (0..count).map(|i| [(i as f32 + 0.5) / count as f32]).collect()
 }
 
 /// Refractive indices of water, glass and diamond.
 const IORS: [f64; 3] = [1.33, 1.5, 2.42];
 
-fn dielectric(effort: Effort, count: usize) -> Vec<Row> {
+fn dielectric(effort: Effort) -> Vec<Row> {
     let of = |ior: f64| {
         let f0 = f_dielectric(ior, 1.0);
         let group = Group {
             term: "fresnel",
             points_are: format!("ior {ior}: a dielectric, l.h evenly in 0..1"),
             names: &[("l.h", 1), ("f0", 1), ("ior", 1)],
-            points: incidences(count).into_iter().map(|[c]| [c, f0 as f32, ior as f32]).collect(),
+            point: Box::new(move |[c, ..]| [c, f0, ior].map(|x| x as f32)),
             forms: vec![
                 form!(3, "schlick", [c, f0, _] => f_schlick([f0; 3], [R::ONE; 3], c)[0]),
                 form!(3, "exact", [c, f0, _] => f_exact([f0; 3], [R::ONE; 3], c)[0]),
@@ -360,7 +366,7 @@ fn dielectric(effort: Effort, count: usize) -> Vec<Row> {
 const METALS: [(&str, [f64; 2]); 4] =
     [("gold", [0.424, 2.472]), ("copper", [1.007, 2.582]), ("aluminium", [1.015, 6.627]), ("iron", [2.95, 2.932])];
 
-fn conductor(effort: Effort, count: usize) -> Vec<Row> {
+fn conductor(effort: Effort) -> Vec<Row> {
     let of = |(metal, [eta, k]): (&str, [f64; 2])| {
         let f0 = f_conductor(eta, k, 1.0);
         let tint = tint_at_82_degrees(eta, k, f0);
@@ -368,10 +374,7 @@ fn conductor(effort: Effort, count: usize) -> Vec<Row> {
             term: "fresnel",
             points_are: format!("{metal}, {eta} + {k} i: a metal in the green, l.h evenly in 0..1"),
             names: &[("l.h", 1), ("f0", 1), ("tint", 1), ("eta", 1), ("k", 1)],
-            points: incidences(count)
-                .into_iter()
-                .map(|[c]| [c, f0 as f32, tint as f32, eta as f32, k as f32])
-                .collect(),
+            point: Box::new(move |[c, ..]| [c, f0, tint, eta, k].map(|x| x as f32)),
             forms: vec![
                 form!(5, "schlick", [c, f0, ..] => f_schlick([f0; 3], [R::ONE; 3], c)[0]),
                 form!(5, "f82_tint", [c, f0, tint, ..] => f_f82_tint([f0; 3], [tint; 3], c)[0]),
@@ -391,12 +394,12 @@ fn tint_at_82_degrees(eta: f64, k: f64, f0: f64) -> f64 {
     f_conductor(eta, k, cosine) / f_schlick([f0; 3], [1.0; 3], cosine)[0]
 }
 
-fn thin_film(effort: Effort, count: usize) -> Vec<Row> {
+fn thin_film(effort: Effort) -> Vec<Row> {
     let group = Group {
         term: "fresnel",
         points_are: "film of index 1.4 and 450 nm on glass, l.h evenly in 0..1, red".into(),
         names: &[("l.h", 1)],
-        points: incidences(count),
+        point: Box::new(|[c, ..]| [c as f32]),
         forms: vec![form!(1, "thin_film", [c] => {
             let [film, thickness, base] = FILM.map(R::of);
             f_thin_film(film, thickness, [base; 3], [R::ZERO; 3], c)[0]
@@ -405,12 +408,12 @@ fn thin_film(effort: Effort, count: usize) -> Vec<Row> {
     group.rows(effort, &[Against::itself(0.02)])
 }
 
-fn diffuse(effort: Effort, count: usize) -> Vec<Row> {
+fn diffuse(effort: Effort) -> Vec<Row> {
     let group = Group {
         term: "diffuse",
-        points_are: "albedo 0.8, n.v and n.l logarithmic in 0.01..1, roughness evenly in 0..1".into(),
+        points_are: "albedo 0.8, n.v and n.l logarithmic in 0.01..1 at any azimuth, roughness evenly in 0..1".into(),
         names: &[("n.v", 1), ("n.l", 1), ("l.h", 1), ("roughness", 1)],
-        points: cosines(count, |x| x),
+        point: Box::new(|place| cosines(place, |x| x)),
         forms: vec![
             form!(4, "lambert", [v, l, h, r] => diffuse_lambert([R::of(0.8); 3], v, l, h, r)[0]),
             form!(4, "burley", [v, l, h, r] => diffuse_burley([R::of(0.8); 3], v, l, h, r)[0]),
@@ -426,12 +429,12 @@ fn diffuse(effort: Effort, count: usize) -> Vec<Row> {
     group.rows(effort, &[Against::itself(0.0), Against { name, truth: Some(&truth), floor: 0.025 }])
 }
 
-fn compensation(effort: Effort, count: usize) -> Vec<Row> {
+fn compensation(effort: Effort) -> Vec<Row> {
     let group = Group {
         term: "compensation",
         points_are: "f0 evenly in 0..1, single-scattering albedo of white evenly in 0.4..1".into(),
         names: &[("f0", 1), ("albedo", 1)],
-        points: spread(count).map(|[f0, albedo, ..]| [f0 as f32, (0.4 + 0.6 * albedo) as f32]).collect(),
+        point: Box::new(|[f0, albedo, ..]| [f0, 0.4 + 0.6 * albedo].map(|x| x as f32)),
         forms: vec![
             form!(2, "turquin", [f0, albedo] => energy_compensation([f0; 3], [R::ONE; 3], [albedo, R::ZERO])[0]),
             form!(2, "fdez_aguera", [f0, albedo] =>
@@ -447,6 +450,49 @@ mod tests {
     use super::*;
     use std::collections::HashSet;
 
+    /// Ten times as many points, drawn by chance, find nothing that errs more.
+    #[test]
+    fn largest_errors_are_the_largest() {
+        let mut state = 11_u64;
+        let mut number = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut places: Vec<Cube> = (0..10 << 14).map(|_| std::array::from_fn(|_| number())).collect();
+        // What lies on the edges of the domain is part of it.
+        places.iter_mut().step_by(3).for_each(|place| *place = place.map(|x| (1.2 * x - 0.1).clamp(0.0, 1.0)));
+        let rows = [v(Effort::Quick), diffuse(Effort::Quick), d(Effort::Quick)].concat();
+        let against = |floor: f64, found: f32, truth: f64| ((f64::from(found) - truth) / truth.max(floor)).abs();
+        let smith = |place: Cube, form: fn(f32, f32, f32, f32) -> f32| {
+            let [v, l, h, alpha] = cosines(place, |x| 0.002_f64.powf(x));
+            let [wv, wl, wh, walpha] = [v, l, h, alpha].map(f64::from);
+            against(0.0, form(v, l, h, alpha), v_smith_ggx_correlated(wv, wl, wh, walpha))
+        };
+        type Error<'a> = &'a dyn Fn(Cube) -> f64;
+        let cases: [(&str, &str, Error<'_>); 5] = [
+            ("hammon", "for GGX", &|place| smith(place, v_hammon)),
+            ("kelemen", "for GGX", &|place| smith(place, v_kelemen)),
+            ("correlated", "for GGX", &|place| smith(place, v_smith_ggx_correlated)),
+            ("burley", "exact albedos", &|place| {
+                let x = cosines(place, |x| x);
+                let [v, l, h, r] = x.map(f64::from);
+                let truth = diffuse_eon_exact([0.8; 3], v, l, h, r)[0];
+                against(0.025, diffuse_burley([0.8; 3], x[0], x[1], x[2], x[3])[0], truth)
+            }),
+            ("beckmann", "GGX in f64", &|place| {
+                let x = half_angles(place);
+                let [n_dot_h, sin2, alpha] = x.map(f64::from);
+                against(1e-6, d_beckmann(x[0], x[1], x[2]), d_ggx(n_dot_h, sin2, alpha))
+            }),
+        ];
+        for (method, truth, error) in cases {
+            let row = rows.iter().find(|row| row.method == method && row.domain.contains(truth)).expect("a row");
+            let found = places.iter().map(|&place| error(place)).fold(0.0, f64::max);
+            let said = row.error_max.expect("a largest error");
+            assert!(said >= 0.97 * found && row.searched, "{method}: {said}, but {found}");
+        }
+    }
+
     /// Every row has its figures and no other row's name; what f32 adds is small, and the forms that stand for Smith's
     /// differ from it as their documentation says.
     #[test]
@@ -458,7 +504,8 @@ mod tests {
             let figures = [row.error_max, row.error_rms, row.cost_ns, row.cost_batch_ns];
             assert!(figures.iter().all(|x| x.is_some_and(f64::is_finite)), "{row:?}");
             let own = row.domain.ends_with("the same form in f64");
-            assert!(!own || row.error_max < Some(2e-4), "{row:?}");
+            // Where a form is all but 0 its rounding is the more of it.
+            assert!(!own || row.error_max < Some(1e-3), "{row:?}");
         }
         let rms = |method: &str, truth: &str| {
             let mut others = rows.iter().filter(|row| !row.domain.ends_with("the same form in f64"));

@@ -2,7 +2,7 @@
 
 use halfvector_maps::color::{gamma_from_linear, srgb_from_linear};
 
-use crate::error::Errors;
+use crate::search::CHEAP;
 use crate::timing::{Candidate, measured};
 use crate::{Effort, Row};
 
@@ -27,14 +27,20 @@ pub(super) fn rows(effort: Effort) -> Vec<Row> {
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
     let times = measured(&mut candidates, effort.pick(20, 200));
     let row = |((name, written), time): (&(&str, Written), _)| {
-        let mut errors = Errors::default();
-        for &[reflection, albedo] in &points {
+        // Anywhere on the square that the grid covers.
+        let reflection_and_albedo = |[x, y]: [f64; 2]| [x, 0.04 + 0.96 * y];
+        let error = |place: [f64; 2]| {
+            let [reflection, albedo] = reflection_and_albedo(place);
             let truth = srgb_from_linear([reflection * albedo; 3])[0];
-            let found = f64::from(written(reflection as f32, albedo as f32));
-            errors.add(found - truth, || format!("reflection = {reflection:.3}, albedo = {albedo:.3}"));
-        }
+            (f64::from(written(reflection as f32, albedo as f32)) - truth).abs()
+        };
+        let at = |place: [f64; 2]| {
+            let [reflection, albedo] = reflection_and_albedo(place);
+            format!("reflection = {reflection:.3}, albedo = {albedo:.3}")
+        };
         let mut row = Row::new("encode", name, DOMAIN);
-        errors.fill(&mut row);
+        let places = (0..side * side).map(|k| [place(k % side), place(k / side)]);
+        CHEAP.errors(places, error, at).fill(&mut row);
         row.take_time(time, points.len());
         row
     };

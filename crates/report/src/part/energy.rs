@@ -7,8 +7,11 @@ use halfvector_brdf::ggx::v_smith_ggx_correlated;
 use halfvector_ibl::environment::dfg_from_table;
 use halfvector_ibl::{DFG_SIZE, dfg_table};
 
+use rayon::prelude::*;
+
 use super::{coupling, multiple};
 use crate::error::Errors;
+use crate::search::Search;
 use crate::timing::{self, Candidate};
 use crate::{Effort, Row, Run};
 
@@ -40,7 +43,7 @@ const LAYOUTS: &[Layout] = &[
 ];
 
 /// Scale and bias by n.v and perceptual roughness.
-type Form<'a> = &'a dyn Fn(f32, f32) -> [f32; 2];
+type Form<'a> = &'a (dyn Fn(f32, f32) -> [f32; 2] + Sync);
 
 /// Measures the part.
 pub fn rows(run: &Run<'_>) -> Vec<Row> {
@@ -50,7 +53,7 @@ pub fn rows(run: &Run<'_>) -> Vec<Row> {
 
 /// Tables of the pair and what stands for them.
 fn pairs(effort: Effort) -> Vec<Row> {
-    let points = truth(effort.pick(24, 64));
+    let points = truth(effort.pick(48, 96));
     let mut rows = Vec::new();
     for layout in LAYOUTS {
         let texels = filled(layout);
@@ -91,37 +94,72 @@ fn pairs(effort: Effort) -> Vec<Row> {
     rows
 }
 
-/// (n.v, roughness, (a, b)) on a grid that is dense where either is small.
-fn truth(count: usize) -> Vec<(f64, f64, [f64; 2])> {
+/// n.v and roughness at a place of the unit square, dense where either is small, from the least of both on.
+fn argument([x, y]: [f64; 2], [v, r]: [f64; 2]) -> [f64; 2] {
+    [v + (1.0 - v) * x.powi(3), r + (1.0 - r) * y.powf(1.5)]
+}
+
+/// The least n.v and roughness of each domain.
+const DOMAINS: [(&str, [f64; 2]); 2] = [(INNER, [0.05, 0.089]), (WIDE, [0.001, 0.02])];
+
+/// The truth on a grid over [`WIDE`].
+fn truth(count: usize) -> Vec<Point> {
     let place = |i: usize| (i as f64 + 0.37) / count as f64;
     (0..count * count)
+        .into_par_iter()
         .map(|k| {
-            let (v, r) = (0.001 + 0.999 * place(k % count).powi(3), 0.02 + 0.98 * place(k / count).powf(1.5));
+            let [v, r] = argument([place(k % count), place(k / count)], DOMAINS[1].1);
             (v, r, directional_albedo_ggx(v, r))
         })
         .collect()
 }
 
+/// n.v, roughness and the pair there.
+type Point = (f64, f64, [f64; 2]);
+
+/// How much is searched for a largest error.
+const SEARCH: Search = Search { starts: 4, rounds: 8 };
+
 fn measured(
     name: &str,
-    points: &[(f64, f64, [f64; 2])],
-    value: impl Fn(f64, f64) -> [f64; 2],
-    with: impl Fn(&mut Row),
-) -> [Row; 2] {
-    [INNER, WIDE].map(|domain| {
+    points: &[Point],
+    value: impl Fn(f64, f64) -> [f64; 2] + Sync,
+    with: impl Fn(&mut Row) + Sync,
+) -> Vec<Row> {
+    let off = |[v, r]: [f64; 2], [a, b]: [f64; 2]| {
+        let found = value(v, r);
+        (found[0] + found[1] - a - b).abs().max((found[1] - b).abs())
+    };
+    let at = |[v, r]: [f64; 2]| format!("n.v = {v:.5}, roughness = {r:.5}");
+    let row = |&(domain, least): &(&str, [f64; 2])| {
         let mut errors = Errors::default();
-        for &(v, r, [a, b]) in points {
-            if domain == WIDE || (v >= 0.05 && r >= 0.089) {
-                let found = value(v, r);
-                let error = (found[0] + found[1] - a - b).abs().max((found[1] - b).abs());
-                errors.add(error, || format!("n.v = {v:.5}, roughness = {r:.5}"));
-            }
+        let own = points.iter().filter(|(v, r, _)| *v >= least[0] && *r >= least[1]);
+        // The search goes on in the square of which the domain is made.
+        let place = |v: f64, r: f64| {
+            [((v - least[0]) / (1.0 - least[0])).cbrt(), ((r - least[1]) / (1.0 - least[1])).powf(1.0 / 1.5)]
+        };
+        let drawn: Vec<_> = own.map(|&(v, r, pair)| (place(v, r), off([v, r], pair))).collect();
+        drawn.iter().for_each(|&(place, error)| errors.add(error, || at(argument(place, least))));
+        // What a table is filled with is near enough to find the place; the error there is held against the truth.
+        let near = |place: [f64; 2]| {
+            let [v, r] = argument(place, least);
+            off([v, r], dfg_near(v, r))
+        };
+        for (place, _) in SEARCH.worst(drawn, near) {
+            let [v, r] = argument(place, least);
+            errors.search(off([v, r], directional_albedo_ggx(v, r)), || at([v, r]));
         }
         let mut row = Row::new("dfg", name, domain);
         errors.fill(&mut row);
         with(&mut row);
         row
-    })
+    };
+    DOMAINS.par_iter().map(row).collect()
+}
+
+/// The pair to 1e-5.
+fn dfg_near(n_dot_v: f64, roughness: f64) -> [f64; 2] {
+    directional_albedo_ggx_with::<6>(n_dot_v, roughness, v_smith_ggx_correlated::<f64>, &gauss_legendre::<6>())
 }
 
 fn filled(layout: &Layout) -> Vec<[f64; 2]> {

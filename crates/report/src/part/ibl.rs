@@ -6,6 +6,7 @@ use std::collections::HashMap;
 
 use super::split_sum;
 use crate::error::Errors;
+use crate::search::Search;
 use crate::timing::{Candidate, measured, measured_and_told};
 use crate::{Effort, Row, Run};
 use halfvector_ibl::environment::{
@@ -13,7 +14,7 @@ use halfvector_ibl::environment::{
 };
 use halfvector_ibl::sh::{ShOrder, ShWindow, irradiance_from_radiance_sh};
 use halfvector_ibl::{
-    BakeOptions, BakedEnvironment, LevelMap, LoadedEnvironment, Prefilter, Quadrature, Quality, Source, bake,
+    BakeOptions, BakedEnvironment, Equirect, LevelMap, LoadedEnvironment, Prefilter, Quadrature, Quality, Source, bake,
     direction_from_face, sky, studio,
 };
 use rayon::prelude::*;
@@ -38,17 +39,18 @@ pub fn rows_under_sky(run: &Run<'_>) -> Vec<Row> {
 fn under(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment, rows: &mut Vec<Row>) {
     let effort = run.effort();
     let Source::Equirect(map) = &environment.source else { return };
-    let truth = Quadrature::new(map);
-    let own = levels(run, first, name, environment, &truth, rows);
+    let truth = Truth::new(map);
+    let own = levels(run, first, name, environment, &truth.exact, rows);
     rows.extend(own);
     run.keep(rows, first + 0.35);
     // The largest bakes are made once for all that read them.
     let baked = |level_map| bake(environment, &BakeOptions { level_map, ..BakeOptions::default() });
-    let maps = [baked(LevelMap::Geometric), baked(LevelMap::Linear), baked(LevelMap::Report)];
+    // At this size the linear mapping has the report's six levels.
+    let maps = [baked(LevelMap::Geometric), baked(LevelMap::Linear)];
     run.at(first + 0.4);
     rows.extend(seen(effort, name, &maps, &truth));
     run.keep(rows, first + 0.42);
-    rows.extend(diffuse(effort, name, environment, &maps[2], &truth));
+    rows.extend(diffuse(effort, name, &maps, &truth));
     run.keep(rows, first + 0.45);
     rows.extend(split_sum::rows(effort, name, environment, &maps[0]));
     run.keep(rows, first + 0.5);
@@ -56,8 +58,74 @@ fn under(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment,
 
 /// Relative error of a colour, each channel against at least a thousandth of the mean radiance.
 pub(super) fn add(errors: &mut Errors, value: [f32; 3], truth: [f64; 3], mean: [f64; 3], at: impl Fn() -> String) {
-    for c in 0..3 {
-        errors.add((f64::from(value[c]) - truth[c]) / truth[c].max(1e-3 * mean[c]), &at);
+    errors.add_color(off(value, truth, mean), at);
+}
+
+/// The relative error of each channel, as [`add`] takes it.
+fn off(value: [f32; 3], truth: [f64; 3], mean: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|c| (f64::from(value[c]) - truth[c]) / truth[c].max(1e-3 * mean[c]))
+}
+
+fn largest(errors: [f64; 3]) -> f64 {
+    errors.into_iter().fold(0.0, |most, error| error.abs().max(most))
+}
+
+/// What is true of an environment: by every texel, and by few of them, which is quick and near enough to say where an error is
+/// large.
+struct Truth {
+    exact: Quadrature,
+    near: Quadrature,
+}
+
+/// Rows of the map of which [`Truth::near`] is.
+const NEAR_ROWS: usize = 96;
+
+/// How much is searched for a largest error.
+const SEARCH: Search = Search { starts: 3, rounds: 4 };
+
+impl Truth {
+    fn new(map: &Equirect) -> Truth {
+        let near = map.area_resampled(2 * NEAR_ROWS, NEAR_ROWS);
+        Truth { exact: Quadrature::new(map), near: Quadrature::new(&near) }
+    }
+
+    /// Prefiltered light in the direction and for the roughness of each place, nearly.
+    fn nearly<const N: usize>(
+        &self,
+        count: usize,
+        asked: impl Fn([f64; N]) -> ([f64; 3], f64) + Sync,
+    ) -> Vec<([f64; N], [f64; 3])> {
+        // Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
+        const STEPS: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3];
+        let place = |k: usize| std::array::from_fn(|i| (0.5 + STEPS[i % 3] * k as f64).fract());
+        let at = |k: usize| {
+            let (dir, roughness) = asked(place(k));
+            (place(k), self.near.prefiltered(dir, roughness))
+        };
+        (0..count).into_par_iter().map(at).collect()
+    }
+
+    /// Looks for a larger error than is known, from places where the light is nearly known: where it is large beside what is nearly
+    /// true it is held against what is true.
+    fn search<const N: usize>(
+        &self,
+        errors: &mut Errors,
+        known: &[([f64; N], [f64; 3])],
+        asked: impl Fn([f64; N]) -> ([f64; 3], f64),
+        read: impl Fn(([f64; 3], f64)) -> [f32; 3],
+        at: impl Fn([f64; N]) -> String,
+    ) {
+        let mean = self.exact.mean();
+        let drawn = known.iter().map(|&(place, light)| (place, largest(off(read(asked(place)), light, mean))));
+        let near = |place: [f64; N]| {
+            let (dir, roughness) = asked(place);
+            largest(off(read((dir, roughness)), self.near.prefiltered(dir, roughness), mean))
+        };
+        for (place, _) in SEARCH.worst(drawn, near) {
+            let (dir, roughness) = asked(place);
+            let found = off(read((dir, roughness)), self.exact.prefiltered(dir, roughness), mean);
+            errors.search(largest(found), || at(place));
+        }
     }
 }
 
@@ -76,7 +144,7 @@ fn levels(
     before: &[Row],
 ) -> Vec<Row> {
     let effort = run.effort();
-    let rounds = effort.pick(3, 5);
+    let rounds = effort.pick(2, 5);
     let cases: Vec<(&str, BakeOptions)> = [
         ("ggx preview", Quality::Preview, 128, Prefilter::Ggx),
         ("ggx preview", Quality::Preview, 256, Prefilter::Ggx),
@@ -141,23 +209,53 @@ struct Judged<'a> {
 }
 
 impl Judged<'_> {
+    /// From a texel of a level over its face to where the error is larger than at the neighbours: the error there, and where.
+    fn climbed(&self, baked: &BakedEnvironment, level: usize, from: Texel, error: f64) -> (f64, [f64; 3]) {
+        let (truth, last) = (self.truth, baked.radiance[level].size - 1);
+        let (face, mut at, mut most) = (from.0, from.1, error);
+        for step in [8, 4, 2, 1, 1] {
+            let moved = |(axis, up): (usize, bool)| {
+                let mut to = at;
+                to[axis] = if up { (at[axis] + step).min(last) } else { at[axis].saturating_sub(step) };
+                let (dir, value) = read(baked, level, (face, to));
+                let light = truth.prefiltered(dir, f64::from(baked.roughness[level]));
+                (largest(off(value, light, truth.mean())), to)
+            };
+            let around = [(0, false), (0, true), (1, false), (1, true)];
+            let best = around.into_par_iter().map(moved).max_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some((found, to)) = best.filter(|(found, _)| *found > most) {
+                (most, at) = (found, to);
+            }
+        }
+        (most, centre(last + 1, (face, at)))
+    }
+
     /// The row of a bake, without its time.
     fn row(&mut self, method: &str, size: usize, baked: &BakedEnvironment) -> Row {
         let mut errors = Errors::default();
-        let places: Vec<(usize, [f64; 3])> = (0..self.effort.pick(24, 400))
+        let places: Vec<(usize, usize)> = (0..self.effort.pick(24, 400))
             .map(|k| (1 + k % (baked.radiance.len() - 1), k))
             .filter(|&(level, _)| f64::from(baked.roughness[level]) >= 0.19)
-            .map(|(level, k)| (level, texel_centre(baked.radiance[level].size, k)))
             .collect();
         let levels = baked.radiance.iter().zip(&baked.roughness).map(|(cube, r)| (cube.size, r.to_bits())).collect();
         let truth = self.truth;
         let expected = self.known.entry(levels).or_insert_with(|| {
-            let at = |&(level, dir): &(usize, [f64; 3])| truth.prefiltered(dir, f64::from(baked.roughness[level]));
+            let at = |&(level, k): &(usize, usize)| {
+                truth.prefiltered(texel_centre(baked.radiance[level].size, k), f64::from(baked.roughness[level]))
+            };
             places.par_iter().map(at).collect()
         });
-        for (&(level, dir), &expected) in places.iter().zip(&*expected) {
+        let mut worst: Vec<(f64, usize, usize)> = Vec::new();
+        for (&(level, k), &expected) in places.iter().zip(&*expected) {
+            let (dir, value) = read(baked, level, texel(baked.radiance[level].size, k));
             let at = || format!("roughness = {:?}, direction = {dir:?}", baked.roughness[level]);
-            add(&mut errors, baked.radiance[level].sample(dir), expected, truth.mean(), at);
+            add(&mut errors, value, expected, truth.mean(), at);
+            worst.push((largest(off(value, expected, truth.mean())), level, k));
+        }
+        worst.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for &(error, level, k) in &worst[..worst.len().min(self.effort.pick(1, 8))] {
+            let (found, dir) = self.climbed(baked, level, texel(baked.radiance[level].size, k), error);
+            errors.search(found, || format!("roughness = {:?}, direction = {dir:?}", baked.roughness[level]));
         }
         let domain = format!(
             "{}, {size} px: levels of roughness >= 0.2 at texel centres; relative error against a sum over texels",
@@ -170,13 +268,31 @@ impl Judged<'_> {
     }
 }
 
+/// A texel of a cube: its face, column and row.
+type Texel = (usize, [usize; 2]);
+
+/// The k-th of evenly spread texels of a cube.
+fn texel(size: usize, k: usize) -> Texel {
+    let place = |g: f64| ((0.5 + g * k as f64).fract() * size as f64) as usize;
+    (k % 6, [place(0.754_877_666), place(0.569_840_291)])
+}
+
+/// The middle of a texel, as a unit direction.
+fn centre(size: usize, (face, [column, row]): Texel) -> [f64; 3] {
+    let place = |at: usize| (2 * at + 1) as f64 / size as f64 - 1.0;
+    unit(direction_from_face(face, place(column), place(row)))
+}
+
 /// The k-th of evenly spread texel centres of a cube, as a unit direction.
 pub(super) fn texel_centre(size: usize, k: usize) -> [f64; 3] {
-    let place = |g: f64| {
-        let texel = ((0.5 + g * k as f64).fract() * size as f64).floor();
-        (2.0 * texel + 1.0) / size as f64 - 1.0
-    };
-    unit(direction_from_face(k % 6, place(0.754_877_666), place(0.569_840_291)))
+    centre(size, texel(size, k))
+}
+
+/// The middle of a texel of a level, and what stands there.
+fn read(baked: &BakedEnvironment, level: usize, texel: Texel) -> ([f64; 3], [f32; 3]) {
+    let cube = &baked.radiance[level];
+    let dir = centre(cube.size, texel);
+    (dir, cube.sample(dir))
 }
 
 pub(super) fn unit(v: [f64; 3]) -> [f64; 3] {
@@ -186,25 +302,32 @@ pub(super) fn unit(v: [f64; 3]) -> [f64; 3] {
 
 /// The k-th direction of an even spread over the sphere.
 pub(super) fn direction(k: usize) -> [f64; 3] {
-    let (y, phi) = (2.0 * (0.5 + 0.819_172_513 * k as f64).fract() - 1.0, 0.671_043_607 * k as f64);
-    let (sin, cos) = (phi.fract() * std::f64::consts::TAU).sin_cos();
-    let across = (1.0 - y * y).sqrt();
+    direction_at([(0.5 + 0.819_172_513 * k as f64).fract(), (0.671_043_607 * k as f64).fract()])
+}
+
+/// The direction at a place of the unit square, of which equal parts are equal parts of the sphere.
+fn direction_at([a, b]: [f64; 2]) -> [f64; 3] {
+    let (y, (sin, cos)) = (2.0 * a - 1.0, (b * std::f64::consts::TAU).sin_cos());
+    let across = (1.0 - y * y).max(0.0).sqrt();
     [across * cos, y, across * sin]
 }
 
 /// Any direction and roughness from 0.1 to 1, read as a shader reads it: one row per mapping of roughness to levels.
-/// `maps` are baked for the geometric, the linear and the report's mapping.
-fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 3], truth: &Quadrature) -> Vec<Row> {
+/// `maps` are baked for the geometric and for the linear mapping; the latter has the report's levels.
+fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 2], truth: &Truth) -> Vec<Row> {
     let domain = format!(
         "{name}: as seen at any direction, roughness evenly in 0.1..1, 512 px; relative error against a sum over texels"
     );
+    // A direction and a roughness at a place of the unit cube.
+    let asked = |[a, b, r]: [f64; 3]| (direction_at([a, b]), 0.1 + 0.9 * r);
     let points: Vec<([f64; 3], f64)> = (0..effort.pick(60, 1000))
         .map(|k| (direction(k), 0.1 + 0.9 * (0.5 + 0.549_700_478 * k as f64).fract()))
         .collect();
-    let expected: Vec<_> = points.par_iter().map(|&(dir, roughness)| truth.prefiltered(dir, roughness)).collect();
-    let [geometric, linear, report] = maps;
+    let expected: Vec<_> = points.par_iter().map(|&(dir, roughness)| truth.exact.prefiltered(dir, roughness)).collect();
+    let known = truth.nearly(effort.pick(1000, 4000), asked);
+    let [geometric, linear] = maps;
     let count = |baked: &BakedEnvironment| baked.radiance.len() as f64;
-    type Read<'a> = (&'a str, &'a BakedEnvironment, &'a dyn Fn([f64; 3], f64) -> [f32; 3]);
+    type Read<'a> = (&'a str, &'a BakedEnvironment, &'a (dyn Fn([f64; 3], f64) -> [f32; 3] + Sync));
     let methods: [Read<'_>; 4] = [
         ("hermite", geometric, &|dir, roughness| {
             let lod = lod_geometric(roughness, count(geometric));
@@ -216,8 +339,8 @@ fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 3], truth: &Quadra
         ("linear", linear, &|dir, roughness| {
             environment_sample(&linear.radiance, dir, lod_linear(roughness, count(linear)))
         }),
-        ("report", report, &|dir, roughness| {
-            environment_sample(&report.radiance, dir, lod_report(roughness, count(report)))
+        ("report", linear, &|dir, roughness| {
+            environment_sample(&linear.radiance, dir, lod_report(roughness, count(linear)))
         }),
     ];
     let mut runs: Vec<_> = methods
@@ -227,16 +350,29 @@ fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 3], truth: &Quadra
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
     let times = measured(&mut candidates, effort.pick(20, 50));
     methods
-        .iter()
+        .par_iter()
         .zip(times)
         .map(|((method, baked, read), time)| {
             let mut errors = Errors::default();
             for (&(dir, roughness), &expected) in points.iter().zip(&expected) {
                 let at = || format!("roughness = {roughness:.3}, direction = {dir:.3?}");
-                add(&mut errors, read(dir, roughness), expected, truth.mean(), at);
+                add(&mut errors, read(dir, roughness), expected, truth.exact.mean(), at);
             }
+            truth.search(
+                &mut errors,
+                &known,
+                asked,
+                |(dir, roughness)| read(dir, roughness),
+                |place| {
+                    let (dir, roughness) = asked(place);
+                    format!("roughness = {roughness:.3}, direction = {dir:.3?}")
+                },
+            );
             let mut row = Row::new("level_map", method, &domain);
             errors.fill(&mut row);
+            if ["linear", "report"].contains(method) {
+                row.note = Some("at this size both linear and report have the same six levels".to_owned());
+            }
             row.take_time(time, points.len());
             row.bytes = Some(8 * baked.radiance.iter().map(|cube| cube.texels.len() as u64).sum::<u64>());
             row
@@ -246,21 +382,17 @@ fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 3], truth: &Quadra
 
 /// Diffuse light from any direction: the cube, harmonics to degree 1, 2 and 3 as they are and windowed, and the report's last
 /// level. A third degree adds nothing: the cosine lobe has none (Ramamoorthi and Hanrahan 2001).
-fn diffuse(
-    effort: Effort,
-    name: &str,
-    environment: &LoadedEnvironment,
-    report: &BakedEnvironment,
-    truth: &Quadrature,
-) -> Vec<Row> {
+fn diffuse(effort: Effort, name: &str, maps: &[BakedEnvironment; 2], truth: &Truth) -> Vec<Row> {
     let domain = format!("{name}: irradiance over pi at any direction; relative error against a sum over texels");
     let points: Vec<[f64; 3]> = (0..effort.pick(60, 1000)).map(direction).collect();
-    let expected: Vec<_> = points.par_iter().map(|&dir| truth.prefiltered(dir, 1.0)).collect();
-    let baked = bake(environment, &BakeOptions { size: 64, ..BakeOptions::default() });
+    let expected: Vec<_> = points.par_iter().map(|&dir| truth.exact.prefiltered(dir, 1.0)).collect();
+    let asked = |place: [f64; 2]| (direction_at(place), 1.0);
+    let known = truth.nearly(effort.pick(300, 2000), asked);
+    let [baked, report] = maps;
     let harmonics = |coefficients: [[f32; 4]; 9], dir: [f64; 3]| irradiance_sh2(coefficients, dir.map(|x| x as f32));
     let plain = baked.irradiance_sh_padded();
     let of_radiance = |order, window, dir| irradiance_from_radiance_sh(&baked.radiance_sh, order, window, dir);
-    type Read<'a> = (&'a str, u64, &'a dyn Fn([f64; 3]) -> [f32; 3]);
+    type Read<'a> = (&'a str, u64, &'a (dyn Fn([f64; 3]) -> [f32; 3] + Sync));
     let methods: [Read<'_>; 7] = [
         ("cube", 8 * baked.irradiance_over_pi.texels.len() as u64, &|dir| baked.irradiance_over_pi.sample(dir)),
         ("sh2", 144, &|dir| harmonics(plain, dir)),
@@ -275,13 +407,15 @@ fn diffuse(
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
     let times = measured(&mut candidates, effort.pick(20, 50));
     methods
-        .iter()
+        .par_iter()
         .zip(times)
         .map(|((method, bytes, read), time)| {
             let mut errors = Errors::default();
             for (&dir, &expected) in points.iter().zip(&expected) {
-                add(&mut errors, read(dir), expected, truth.mean(), || format!("direction = {dir:.3?}"));
+                add(&mut errors, read(dir), expected, truth.exact.mean(), || format!("direction = {dir:.3?}"));
             }
+            let at = |place: [f64; 2]| format!("direction = {:.3?}", direction_at(place));
+            truth.search(&mut errors, &known, asked, |(dir, _)| read(dir), at);
             let mut row = Row::new("irradiance", method, &domain);
             errors.fill(&mut row);
             row.take_time(time, points.len());

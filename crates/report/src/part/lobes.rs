@@ -130,7 +130,7 @@ impl Light {
         term: &str,
         what: &str,
         methods: [&str; N],
-        cases: impl Iterator<Item = Case<N>>,
+        cases: impl ParallelIterator<Item = Case<N>>,
     ) -> Vec<Row> {
         let cases: Vec<Case<N>> = cases.collect();
         let mean: [f64; 3] =
@@ -138,9 +138,8 @@ impl Light {
         let mut errors: [Errors; N] = std::array::from_fn(|_| Errors::default());
         for Case { at, truth, values } in cases {
             for (errors, value) in errors.iter_mut().zip(values) {
-                for c in 0..3 {
-                    errors.add((value[c] - truth[c]) / truth[c].max(FLOOR * mean[c]), || at.clone());
-                }
+                let error = |c: usize| (value[c] - truth[c]) / truth[c].max(FLOOR * mean[c]);
+                errors.add_color(std::array::from_fn(error), || at.clone());
             }
         }
         let domain = format!(
@@ -177,8 +176,9 @@ fn frames(count: usize) -> impl Iterator<Item = Frame<f64>> {
 }
 
 /// The frames with each of some numbers.
-fn with<const N: usize>(count: usize, numbers: [f64; N]) -> impl Iterator<Item = (Frame<f64>, f64)> {
-    frames(count).flat_map(move |frame| numbers.map(|number| (frame, number)))
+fn with<const N: usize>(count: usize, numbers: [f64; N]) -> impl IndexedParallelIterator<Item = (Frame<f64>, f64)> {
+    let all: Vec<_> = frames(count).flat_map(|frame| numbers.map(|number| (frame, number))).collect();
+    all.into_par_iter()
 }
 
 fn mirror(frame: Frame<f64>) -> [f64; 3] {
@@ -208,7 +208,7 @@ fn say(frame: Frame<f64>, roughness: f64) -> String {
 
 /// The base's own reflection: beside it stand the lobes that are looked up in the same way.
 fn specular(light: &Light, count: usize) -> Vec<Row> {
-    let cases = with(count, ROUGHNESS).flat_map(|(frame, r)| {
+    let cases = with(count, ROUGHNESS).flat_map_iter(|(frame, r)| {
         F0.map(|f0| {
             let (lobe, pair) = (Specular { f0, f90: [1.0; 3], alpha: r * r }, split_sum(frame, r));
             let value = |dir| specular_environment(lobe, light.radiance(dir, r), pair);
@@ -255,7 +255,7 @@ fn sheen(light: &Light, count: usize) -> Vec<Row> {
 }
 
 fn anisotropy(light: &Light, count: usize) -> Vec<Row> {
-    let cases = with(count, [0.3, 0.5, 0.7]).enumerate().flat_map(|(k, (frame, r))| {
+    let cases = with(count, [0.3, 0.5, 0.7]).enumerate().flat_map_iter(|(k, (frame, r))| {
         ANISOTROPY.map(|strength| {
             let aside = unit(cross(frame.normal, direction(3 * k + 1)));
             let [alpha_t, alpha_b] = anisotropic_alphas_gltf(r, strength);
@@ -288,7 +288,7 @@ fn anisotropy(light: &Light, count: usize) -> Vec<Row> {
 }
 
 fn transmission(light: &Light, count: usize) -> Vec<Row> {
-    let cases = with(count, ROUGHNESS_THROUGH).flat_map(|(frame, r)| {
+    let cases = with(count, ROUGHNESS_THROUGH).flat_map_iter(|(frame, r)| {
         IOR.map(|eta| {
             let lobe = Transmission { color: [1.0; 3], eta, alpha: r * r };
             let (f0, pair) = (f0_from_ior(eta), split_sum(frame, r));
@@ -325,7 +325,7 @@ fn thin_walled(light: &Light, count: usize) -> Vec<Row> {
 }
 
 fn thin_film(light: &Light, count: usize) -> Vec<Row> {
-    let cases = with(count, ROUGHNESS).enumerate().flat_map(|(k, (frame, r))| {
+    let cases = with(count, ROUGHNESS).enumerate().flat_map_iter(|(k, (frame, r))| {
         FILMS.map(|[thickness, ior]| {
             let film = ThinFilm { weight: 1.0, thickness, ior };
             let (f0, f90, pair) = (F0[k % F0.len()], [1.0; 3], split_sum(frame, r));
@@ -333,6 +333,10 @@ fn thin_film(light: &Light, count: usize) -> Vec<Row> {
             let radiance = light.radiance(leaning(frame, r), r);
             let value = |f0, f90| specular_environment(Specular { f0, f90, alpha: r * r }, radiance, pair);
             let truth = light.integral(|l| {
+                // Most of the time goes into the film: none for light from below, of which nothing is reflected.
+                if dot(frame.normal, l) <= 0.0 {
+                    return [0.0; 3];
+                }
                 let f = fresnel(half_from_light(frame, l).l_dot_h);
                 specular_eval(frame, l, Specular { f0: f, f90: f, alpha: r * r })
             });
@@ -353,7 +357,7 @@ fn thin_film(light: &Light, count: usize) -> Vec<Row> {
 }
 
 fn occlusion(light: &Light, count: usize) -> Vec<Row> {
-    let cases = with(count, ROUGHNESS).flat_map(|(frame, r)| {
+    let cases = with(count, ROUGHNESS).flat_map_iter(|(frame, r)| {
         OCCLUSION.map(|open| {
             let (lobe, pair) = (Specular { f0: F0[0], f90: [1.0; 3], alpha: r * r }, split_sum(frame, r));
             let edge = (1.0 - open).sqrt();
@@ -377,7 +381,7 @@ fn occlusion(light: &Light, count: usize) -> Vec<Row> {
 }
 
 fn horizon(light: &Light, count: usize) -> Vec<Row> {
-    let cases = with(count, ROUGHNESS).enumerate().flat_map(|(k, (frame, r))| {
+    let cases = with(count, ROUGHNESS).enumerate().flat_map_iter(|(k, (frame, r))| {
         TILT.map(|tilt| {
             let aside = unit(cross(frame.normal, direction(5 * k + 2)));
             let (sin, cos) = tilt.to_radians().sin_cos();

@@ -7,9 +7,13 @@ use halfvector_maps::blend::{blend_linear, blend_partial_derivatives, blend_rnm,
 use halfvector_maps::derivative::{normal_from_slopes, normal_tbn_derivative};
 use halfvector_maps::normal::{normal_rotation_fixed, normal_rotation_report, normal_tbn};
 
+use rayon::prelude::*;
+
+use super::texels::degrees_between;
 use super::{encode, frames, texels};
-use crate::error::{Errors, named};
+use crate::error::named;
 use crate::placed::Columns;
+use crate::search::CHEAP;
 use crate::timing::{Candidate, SITTINGS, Time, measured};
 use crate::{Effort, Row};
 
@@ -115,6 +119,7 @@ fn methods(effort: Effort) -> Vec<Row> {
         if rows.last().is_none_or(|row| row.method != method || row.domain != domain) {
             let mut row = Row::new("normal", method, &domain);
             row.note = Some(FROM_TABLE.to_owned());
+            row.points = Some(if normal == "sphere" { 60 * TABLE_POINTS } else { TABLE_POINTS });
             if let Some(cost) = costs.iter().find(|cost| cost.method == method) {
                 row.take_time(cost.single, cost.texels);
                 cost.batch.into_iter().for_each(|time| row.take_batch_time(time, cost.texels));
@@ -130,7 +135,48 @@ fn methods(effort: Effort) -> Vec<Row> {
         tilts += 1.0;
         row.error_rms = Some(((squares + number(rms) * number(rms)) / tilts).sqrt());
     }
+    rows.par_iter_mut().for_each(search_between);
     rows
+}
+
+/// What the table has of a normal: tilts 0, 5, ... 85 degrees, azimuths 0, 1, ... 359.
+const TABLE_POINTS: u64 = 18 * 360;
+
+/// Searches for a larger angle between the tilts and azimuths of the table, of the two rotations on a single normal: the tangent frames
+/// are exact.
+fn search_between(row: &mut Row) {
+    type Rotation = fn([f64; 3], [f64; 3]) -> [f64; 3];
+    let rotation: Rotation = match row.method.as_str() {
+        "rotation_report" => normal_rotation_report,
+        "rotation_fixed" => normal_rotation_fixed,
+        _ => return,
+    };
+    let named = |name: &str| row.domain.starts_with(&format!("normal {name},"));
+    // The tangent and bitangent of a picture that hangs upright, or lies with its top to the back.
+    const FRAMES: [(&str, [[f64; 3]; 3]); 4] = [
+        ("+Z", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+        ("+X", [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]),
+        ("+Y", [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
+        ("-Z", [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]),
+    ];
+    let Some((_, frame)) = FRAMES.iter().find(|(name, _)| named(name)) else { return };
+    let texel = |[s, t]: [f64; 2]| {
+        let ((sine, cosine), (sin, cos)) = ((85.0 * s).to_radians().sin_cos(), (std::f64::consts::TAU * t).sin_cos());
+        [sine * cos, sine * sin, cosine]
+    };
+    let angle = |place: [f64; 2]| {
+        let t = texel(place);
+        let truth = std::array::from_fn(|k| t[0] * frame[0][k] + t[1] * frame[1][k] + t[2] * frame[2][k]);
+        degrees_between(rotation(t, frame[2]), truth)
+    };
+    let place = |k: usize| [0.754_877_666, 0.569_840_291].map(|step: f64| (0.5 + step * k as f64).fract());
+    let drawn = (0..1 << 13).map(|k| (place(k), angle(place(k))));
+    let worst = CHEAP.worst(drawn, angle);
+    row.searched = true;
+    if let Some(&([s, t], most)) = worst.first().filter(|(_, most)| row.error_max < Some(*most)) {
+        row.error_max = Some(most);
+        row.at = Some(format!("tilt = {:.1} deg, azimuth = {:.1} deg", 85.0 * s, 360.0 * t));
+    }
 }
 
 /// Blends of a base of slopes up to 1.3 with a detail of slopes up to 0.7, against the normal of the sum of the slopes.
@@ -145,41 +191,39 @@ fn blends(effort: Effort) -> Vec<Row> {
         ("linear", blend_linear),
     ];
     let count = effort.pick(1 << 12, 1 << 14);
-    // Four in turn of one sequence: sequences of neighbouring seeds differ by the same steps, which leaves out most of the domain.
-    let slopes = numbers(4 * count, 100);
-    let at =
-        |i: usize| [1.3 * slopes[4 * i], 1.3 * slopes[4 * i + 1], 0.7 * slopes[4 * i + 2], 0.7 * slopes[4 * i + 3]];
-    let pairs: Vec<_> = (0..count)
-        .map(|i| {
-            let [a, b, c, d] = at(i);
-            (normal_from_slopes(a, b), normal_from_slopes(c, d))
-        })
-        .collect();
+    // Slopes of the base and of the detail.
+    let slopes = |[a, b, c, d]: [f64; 4]| {
+        [1.3 * (2.0 * a - 1.0), 1.3 * (2.0 * b - 1.0), 0.7 * (2.0 * c - 1.0), 0.7 * (2.0 * d - 1.0)].map(|x| x as f32)
+    };
+    let normals = |place: [f64; 4]| {
+        let [a, b, c, d] = slopes(place);
+        (normal_from_slopes(a, b), normal_from_slopes(c, d))
+    };
+    // Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
+    let place = |k: usize| {
+        [0.856_674_883_854_502_9, 0.733_891_856_627_126, 0.628_706_721_037_865, 0.538_597_257_223_612]
+            .map(|step| (0.5 + step * k as f64).fract())
+    };
+    let pairs: Vec<_> = (0..count).map(|k| normals(place(k))).collect();
     let mut runs: Vec<_> = BLENDS
         .iter()
         .map(|(_, blend)| |_| pairs.iter().map(|&(base, detail)| f64::from(blend(base, detail)[0])).sum::<f64>())
         .collect();
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
     let times = measured(&mut candidates, effort.pick(20, 200));
-    let measured = BLENDS.iter().zip(times);
-    measured
-        .map(|((name, blend), time)| {
-            let mut errors = Errors::default();
-            for (i, &(base, detail)) in pairs.iter().enumerate() {
-                let slopes = at(i).map(f64::from);
-                let truth = normal_from_slopes(slopes[0] + slopes[2], slopes[1] + slopes[3]);
-                let n = blend(base, detail).map(f64::from);
-                let difference = (0..3).map(|k| (n[k] - truth[k]).powi(2)).sum::<f64>().sqrt();
-                errors.add(2.0 * (0.5 * difference).min(1.0).asin().to_degrees(), || {
-                    named(&[("base slopes", 2), ("detail slopes", 2)], &slopes)
-                });
-            }
-            let mut row = Row::new("normal_blend", name, DOMAIN);
-            errors.fill(&mut row);
-            row.take_time(time, count);
-            row
-        })
-        .collect()
+    let row = |(&(name, blend), time): (&(&str, Blend), Time)| {
+        let angle = |place: [f64; 4]| {
+            let (base, detail) = normals(place);
+            let [a, b, c, d] = slopes(place).map(f64::from);
+            degrees_between(blend(base, detail).map(f64::from), normal_from_slopes(a + c, b + d))
+        };
+        let at = |place: [f64; 4]| named(&[("base slopes", 2), ("detail slopes", 2)], &slopes(place));
+        let mut row = Row::new("normal_blend", name, DOMAIN);
+        CHEAP.errors((0..effort.pick(1 << 14, 1 << 16)).map(place), angle, at).fill(&mut row);
+        row.take_time(time, count);
+        row
+    };
+    BLENDS.par_iter().zip(times).map(row).collect()
 }
 
 #[cfg(test)]

@@ -23,6 +23,9 @@ use crate::missing::DEVICE;
 use crate::timing::{SITTINGS, median};
 use crate::{Row, Run};
 
+/// The part's name.
+pub(crate) const PART: &str = "shaders";
+
 /// Pixels along a side of what is drawn: a square that fills the picture.
 const SIDE: u32 = 256;
 
@@ -69,7 +72,7 @@ pub fn rows(run: &Run<'_>) -> Vec<Row> {
     // Without a device its columns stay empty.
     let stations = [station()];
     let Some(name) = stations.iter().flatten().map(Station::name).next() else {
-        run.leave_out("shaders", Some(DEVICE), NO_DEVICE.to_owned());
+        run.leave_out(PART, Some(DEVICE), NO_DEVICE.to_owned());
         return rows;
     };
     let timed = |times: Vec<Option<DeviceTime>>| -> Vec<Row> {
@@ -89,6 +92,13 @@ pub fn rows(run: &Run<'_>) -> Vec<Row> {
 /// The part's rows without the device's times: the same on every machine.
 pub fn counted_rows() -> Vec<Row> {
     subjects().iter().map(counted_row).collect()
+}
+
+/// Whether methods of a term are measured in shaders.
+pub(crate) fn has(term: &str) -> bool {
+    let term = if term == "normal_frame" { "normal" } else { term };
+    let is_listed = TERMS.iter().any(|known| known.name == term) && !BAKED.contains(&term);
+    is_listed || OTHERS.iter().any(|(known, ..)| *known == term)
 }
 
 /// A subject for each method of the terms that shaders know, and for each of [`OTHERS`].
@@ -360,7 +370,7 @@ fn device_times<'s>(
             let ((_, scene, light), (station, drawn)) = (&different[at], drawn[at]);
             let Some(station) = stations[station].as_ref().filter(|_| drawn) else { continue };
             let pass = || station.draw(scene, Some(light), &options).ok().and_then(|(_, time)| time);
-            let shortest = (0..run.effort().pick(3, 8)).filter_map(|_| pass()).min_by(f64::total_cmp);
+            let shortest = (0..run.effort().pick(2, 8)).filter_map(|_| pass()).min_by(f64::total_cmp);
             times[at].extend(shortest.filter(|time| *time > 0.0));
             run.at(0.5 + 0.5 * (sitting as f64 + done as f64 / all) / SITTINGS as f64);
         }
