@@ -17,14 +17,16 @@ use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, MeshSource, S
 use super::{CODE, MOST_APART, SIDE, baked, compare};
 use crate::support::{renderer, root};
 
-/// Pixels on a side.
-const SIZE: u32 = 96;
-
-/// What both draw, as [`compare`] has it.
-fn drawn(renderer: &Renderer, scene: &Scene, environment: Option<&BakedEnvironment>, side: u32) -> (f64, f32) {
-    let options = RenderOptions { width: SIZE, height: SIZE, samples_per_side: side, ..RenderOptions::default() };
+/// What both draw, as [`compare`] has it, in so many pixels on a side and samples along a side of a pixel.
+fn drawn(
+    renderer: &Renderer,
+    scene: &Scene,
+    environment: Option<&BakedEnvironment>,
+    [size, side]: [u32; 2],
+) -> (f64, f32) {
+    let options = RenderOptions { width: size, height: size, samples_per_side: side, ..RenderOptions::default() };
     let gpu = renderer.render(scene, environment, &options, |_| {}).unwrap_or_else(|e| panic!("{e}"));
-    let options = RasterOptions { width: SIZE, height: SIZE, samples_per_side: side, fold: Fold::Export };
+    let options = RasterOptions { width: size, height: size, samples_per_side: side, fold: Fold::Export };
     let cpu = halfvector_raster::draw::<f32>(scene, environment, &options, |_| {}).unwrap_or_else(|e| panic!("{e}"));
     compare(scene, &cpu, &gpu)
 }
@@ -76,7 +78,7 @@ fn height_maps_of_8_bits_look_the_same_on_the_cpu() {
                 for normals in ["derived", "report"] {
                     scene.methods = preset.clone();
                     scene.methods.set("height_normals", normals).unwrap_or_else(|e| panic!("{e}"));
-                    let (apart, edges) = drawn(&renderer, &scene, studio.as_ref(), SIDE);
+                    let (apart, edges) = drawn(&renderer, &scene, studio.as_ref(), [96, SIDE]);
                     let preset = if preset == Methods::default() { "default" } else { "report" };
                     let name = format!("{map}, {}, {preset}, {normals}", mesh.name());
                     println!("{name:<44} {:>9.3}% {:>10.3}", apart * 100.0, edges / CODE);
@@ -172,8 +174,8 @@ fn slopes_of_every_picture_look_the_same_on_the_cpu() {
         "    return textureSampleGrad(image, image_sampler, uv.yx, vec2f(0.01, 0.0), vec2f(0.0, 0.01)).r;", "}",
         "fn own(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> f32 {",
         "    return 0.5 * (textureSampleLevel(image, image_sampler, uv, 0.4).r + two(image, image_sampler, uv));", "}"]}"#;
-    let mut cases: Vec<(String, String, Way)> = Vec::new();
-    for map in ["8", "64"] {
+    let mut cases: Vec<(String, String, Way, BuiltinMesh)> = Vec::new();
+    for (map, mesh) in [("8", BuiltinMesh::Plane), ("64", BuiltinMesh::Sphere)] {
         let picture = |input: &str| format!(r#""{input}": {{"file": "{map}.png", "color_space": "linear"}}"#);
         let reads = |def: &&NodeDef| def.inputs.iter().any(|input| input.ty == SocketType::Texture);
         for def in Library::standard().iter().filter(reads) {
@@ -182,27 +184,25 @@ fn slopes_of_every_picture_look_the_same_on_the_cpu() {
             let output = &def.outputs[0];
             let SocketType::Value(ty) = output.ty else { panic!("{} gives no value", def.id) };
             for way in ways(def) {
-                cases.push((format!("{} of {map}", def.id), metal(&node, &output.name, ty, way, ""), way));
+                cases.push((format!("{} of {map}", def.id), metal(&node, &output.name, ty, way, ""), way, mesh));
             }
         }
         let node = format!(r#""node": "custom/own", "values": {{{}}}"#, picture("image"));
         for way in [Way::Bump, Way::Height, Way::OldNormals] {
-            cases.push((format!("custom/own of {map}"), metal(&node, "out", Type::F32, way, own), way));
+            cases.push((format!("custom/own of {map}"), metal(&node, "out", Type::F32, way, own), way, mesh));
         }
     }
     let mut failed = Vec::new();
     println!("{:<44} {:>10} {:>10}", "node, map, way, mesh", "apart", "boxed/255");
-    for (name, document, way) in cases {
-        for mesh in [BuiltinMesh::Plane, BuiltinMesh::Sphere] {
-            let mut scene = scene_of(&document, folder.path(), mesh);
-            let normals = if way == Way::OldNormals { "report" } else { "derived" };
-            scene.methods.set("height_normals", normals).unwrap_or_else(|e| panic!("{e}"));
-            let (apart, edges) = drawn(&renderer, &scene, studio.as_ref(), 2);
-            let name = format!("{name}, {way:?}, {}", mesh.name());
-            println!("{name:<60} {:>9.3}% {:>10.3}", apart * 100.0, edges / CODE);
-            if apart > MOST_APART || edges > 4.0 * CODE {
-                failed.push(name);
-            }
+    for (name, document, way, mesh) in cases {
+        let mut scene = scene_of(&document, folder.path(), mesh);
+        let normals = if way == Way::OldNormals { "report" } else { "derived" };
+        scene.methods.set("height_normals", normals).unwrap_or_else(|e| panic!("{e}"));
+        let (apart, edges) = drawn(&renderer, &scene, studio.as_ref(), [64, 2]);
+        let name = format!("{name}, {way:?}, {}", mesh.name());
+        println!("{name:<60} {:>9.3}% {:>10.3}", apart * 100.0, edges / CODE);
+        if apart > MOST_APART || edges > 4.0 * CODE {
+            failed.push(name);
         }
     }
     assert!(failed.is_empty(), "{failed:?}");
