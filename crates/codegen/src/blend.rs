@@ -41,7 +41,7 @@ pub(crate) fn with_twins<'s>(source: &'s str, twins: &HashMap<String, String>) -
             twins.get(name).cloned().or_else(read)
         };
         let text = emit(source, item, exchanged);
-        whole.to_mut().push_str(&format!("\n/// For a slope: texels are blended by arithmetic.\n{text}\n"));
+        whole.to_mut().push_str(&format!("\n/// For a slope, with texels blended by arithmetic:\n///\n{text}\n"));
     }
     Ok(whole)
 }

@@ -42,7 +42,7 @@ impl<'m> Lower<'m> {
             Expression::Literal(literal) => [self.literal(*literal)?].into(),
             Expression::Constant(constant) => self.global_value(self.module.constants[*constant].init)?,
             Expression::Override(_) => {
-                return self.refuse("an override constant whose value is not set (process the overrides first)");
+                return self.refuse("an override constant whose value is not set");
             }
             Expression::ZeroValue(ty) => self.zero(&self.module.types[*ty].inner)?,
             Expression::Compose { components, .. } => {
