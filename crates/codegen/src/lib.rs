@@ -3,6 +3,7 @@
 //! Deterministic: the same document, needs and library give the same bytes. It opens no files and no device, and reads no
 //! node positions.
 
+mod blend;
 mod cost;
 mod emit;
 mod error;

@@ -11,6 +11,7 @@ use halfvector_graph::method::Methods;
 use halfvector_graph::value::Type;
 use halfvector_shaders::{Item, ItemKind, SliceError, TokenKind, emit, generic_types, slice, tokens};
 
+use crate::blend;
 use crate::cost::{Instructions, of_function};
 use crate::passes::eval::{self, Shape};
 use crate::unread::without_unread;
@@ -36,6 +37,8 @@ pub(crate) struct Index {
     by_name: HashMap<String, usize>,
     /// By function of the document: places of the parameters that it was written with and does without here.
     unread: HashMap<String, Vec<usize>>,
+    /// By function that reads pictures: its twin that blends their texels by arithmetic.
+    blended: HashMap<String, String>,
     compiled: Mutex<HashMap<Instance, Option<Arc<Compiled>>>>,
 }
 
@@ -121,6 +124,7 @@ impl Clone for Index {
             items: self.items.clone(),
             by_name: self.by_name.clone(),
             unread: self.unread.clone(),
+            blended: self.blended.clone(),
             compiled: Mutex::new(compiled),
         }
     }
@@ -143,10 +147,17 @@ impl Index {
             items: Vec::new(),
             by_name: HashMap::new(),
             unread: HashMap::new(),
+            blended: HashMap::new(),
             compiled: Mutex::new(HashMap::new()),
         };
-        for file in files.iter().filter(|f| !f.path.starts_with("entry/") || f.path == TRANSFORM_FILE) {
-            index.add(file.path.into(), file.source.into())?;
+        let files = || files.iter().filter(|f| !f.path.starts_with("entry/") || f.path == TRANSFORM_FILE);
+        // An environment has no slope that anybody asks for.
+        for file in files().filter(|f| f.path != blend::FILE && !f.path.starts_with("ibl/")) {
+            index.blended.extend(blend::twins(file.source)?);
+        }
+        for file in files() {
+            let source = blend::with_twins(file.source, &index.blended)?;
+            index.add(file.path.into(), source)?;
         }
         index.inline(0);
         Ok(index)
@@ -167,8 +178,13 @@ impl Index {
         for (id, function) in sound {
             let name = &function.def.function.name;
             let (source, unread) = without_unread(&function.source, name);
+            // Checked before, as all that a document brings: there is no error here.
+            let Ok(twins) = blend::twins(&source) else { break };
+            index.unread.extend(twins.get(name).map(|twin| (twin.clone(), unread.clone())));
             index.unread.insert(name.clone(), unread);
-            if index.add(format!("custom/{id}").into(), source.into()).is_err() {
+            index.blended.extend(twins);
+            let Ok(source) = blend::with_twins(&source, &index.blended) else { break };
+            if index.add(format!("custom/{id}").into(), source.into_owned().into()).is_err() {
                 break;
             }
         }
@@ -200,6 +216,11 @@ impl Index {
     /// Whether the library has an item of this name.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.by_name.contains_key(name)
+    }
+
+    /// The twin of a function that blends texels by arithmetic; none of one that reads no picture.
+    pub(crate) fn blended(&self, function: &str) -> Option<&str> {
+        self.blended.get(function).map(String::as_str)
     }
 
     /// Places of the arguments that a function is not given, though its node has inputs for them: it does not read them.
