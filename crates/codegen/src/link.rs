@@ -13,7 +13,8 @@ use halfvector_shaders::{Item, ItemKind, SliceError, TokenKind, emit, generic_ty
 
 use crate::blend;
 use crate::cost::{Instructions, of_function};
-use crate::passes::eval::{self, Shape};
+use crate::passes::eval;
+use crate::passes::reduce::{Reduced, reduce};
 use crate::unread::without_unread;
 
 /// Functions of the vertex stage that entry points call; the other files of `entry/` are whole shaders.
@@ -81,7 +82,9 @@ pub(crate) struct Compiled {
     callable: Option<eval::Callable>,
     /// What it does, with what it calls.
     pub(crate) cost: Instructions,
-    pub(crate) shape: Shape,
+    /// The function and what it calls.
+    module: naga::Module,
+    function: naga::Handle<naga::Function>,
     /// Member names of the returned struct; empty for a plain value.
     pub(crate) members: Vec<String>,
 }
@@ -89,6 +92,11 @@ pub(crate) struct Compiled {
 impl Compiled {
     pub(crate) fn evaluate(&self, arguments: &[eval::Number]) -> Option<eval::Value> {
         self.callable.as_ref()?.call(arguments)
+    }
+
+    /// What it gives where some of its arguments are known.
+    pub(crate) fn reduced(&self, known: &[Option<Vec<f32>>]) -> Option<Reduced> {
+        reduce(&self.module, &self.module.functions[self.function], known)
     }
 }
 
@@ -336,7 +344,7 @@ impl Index {
             _ => Vec::new(),
         };
         let callable = eval::Callable::new(&module, body);
-        Some(Compiled { shape: eval::shape(body), members, callable, cost: of_function(&module, handle) })
+        Some(Compiled { members, callable, cost: of_function(&module, handle), function: handle, module })
     }
 
     /// Recognises `fn f(a: A, b: B) -> C { return <expression>; }` whose expression names nothing of the library.

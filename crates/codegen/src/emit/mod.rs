@@ -9,6 +9,7 @@ mod lights;
 pub(crate) mod material;
 mod terms;
 pub(crate) mod text;
+mod tidy;
 mod value;
 pub(crate) mod vertex;
 

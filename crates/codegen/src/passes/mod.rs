@@ -6,6 +6,7 @@ pub(crate) mod fold;
 pub(crate) mod lower;
 pub(crate) mod mixed;
 pub(crate) mod plan;
+pub(crate) mod reduce;
 pub(crate) mod share;
 pub(crate) mod specialise;
 pub(crate) mod types;
