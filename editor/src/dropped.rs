@@ -12,7 +12,7 @@ pub(crate) enum Kind {
     Model,
     /// For nothing else.
     Environment,
-    /// An environment, or a value over an input that takes a picture.
+    /// An environment; over an input that takes a picture it is told that it is none.
     Radiance,
     /// An environment over the viewport, a node over the graph, a value over an input that takes one.
     Picture,
@@ -32,9 +32,13 @@ fn kind(path: &Path) -> Option<Kind> {
     }
 }
 
-/// What an input that takes a picture can hold.
-pub(crate) fn is_picture(kind: Kind) -> bool {
-    matches!(kind, Kind::Picture | Kind::Radiance)
+/// Why an environment is not taken for a picture, and what to do.
+pub(crate) fn no_picture(path: &Path) -> String {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    format!(
+        "{name} is an environment: .hdr and .exr files are not read as pictures of a material. Drop it on the viewport to light \
+         the scene, or convert it to PNG or TIFF."
+    )
 }
 
 /// Takes the dropped files of the kinds that are wanted.

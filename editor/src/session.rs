@@ -449,7 +449,7 @@ impl Session {
 }
 
 /// The document with its image paths as they are written in another folder; `None` when all stay.
-fn with_images_moved(document: &Document, from: &Path, to: &Path) -> Option<Document> {
+pub(crate) fn with_images_moved(document: &Document, from: &Path, to: &Path) -> Option<Document> {
     let values = graphs(document).flat_map(|graph| graph.nodes.values()).flat_map(|node| node.values.values());
     if values.filter_map(|value| moved_value(value, from, to)).count() == 0 {
         return None;

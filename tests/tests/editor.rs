@@ -2,6 +2,7 @@
 
 mod canvas;
 mod cards;
+mod clipboard;
 mod code;
 mod connecting;
 mod files;
@@ -10,6 +11,7 @@ mod functions;
 mod groups;
 mod hands;
 mod inspector;
+mod keyboard;
 mod library;
 mod measures;
 mod opening;
@@ -20,6 +22,7 @@ mod snapshots;
 mod story;
 mod undo;
 mod viewport;
+mod written;
 
 use std::time::{Duration, Instant};
 

@@ -17,7 +17,7 @@ use crate::document::{Document, Graph, NodeId};
 use crate::edit::Edit;
 use crate::library::Library;
 
-pub use clipboard::{Pick, copy, paste};
+pub use clipboard::{Pasted, Pick, copy, paste};
 pub use collapse::collapse;
 pub use import::{export_group, import_group};
 pub use rename_socket::{GroupSide, rename_socket};

@@ -14,7 +14,7 @@ use crate::pictures;
 /// How the names of materials end.
 const ENDING: &str = ".material.json";
 /// Endings of pictures that can be read.
-const PICTURES: &[&str] = &["png", "jpg", "jpeg", "exr", "hdr", "tif", "tiff", "webp", "tga", "bmp"];
+const PICTURES: &[&str] = &["png", "jpg", "jpeg", "tif", "tiff", "webp", "tga", "bmp"];
 
 /// An open file dialog.
 pub(crate) struct Chooser {

@@ -311,10 +311,10 @@ fn functions_go_along() {
         "links": [{"from": "n.out", "to": "surface.height"}]}"#;
     let mut d = from_json(json).unwrap_or_else(|e| panic!("{e}"));
     d.functions.insert("test".into(), text("return x;", ""));
-    let text_of = copy(&d, None, &Pick::nodes(["n".into()]));
+    let copied = copy(&d, None, &Pick::nodes(["n".into()]));
     let mut other = document(&[], &[]);
     other.functions.insert("test".into(), text("return 2.0 * x;", ""));
-    let (edit, _) = paste(&other, small(), None, &text_of, [0.0; 2]).expect("an edit");
+    let edit = paste(&other, small(), None, &copied, [0.0; 2]).expect("an edit").edit;
     crate::edit::apply(&mut other, &edit).expect("applied");
     assert_eq!(other.graph.nodes["n"].node, "custom/test_2");
     assert!(other.functions["test_2"].contains("@node custom/test_2\n"));

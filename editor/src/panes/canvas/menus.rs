@@ -187,7 +187,7 @@ impl Canvas {
             self.open_palette(desk, at, Purpose { at: place, loose: None, into: Some(link.clone()) });
         }
         if item(menu, "Insert reroute", "Double-click") {
-            self.bend(desk, sheet, &link, place);
+            self.bend(menu, desk, sheet, &link, [place, at]);
         }
         if item(menu, "Delete wire", "") {
             desk.edit(sheet, "Disconnect", vec![Edit::RemoveLink { link }]);
