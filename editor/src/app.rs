@@ -5,6 +5,7 @@
 
 mod chooser;
 mod files;
+mod groups;
 mod keys;
 mod layout;
 mod menu;
@@ -208,6 +209,7 @@ impl Editor {
             Action::Open(path) => self.ask(Next::Open(path)),
             Action::Save => self.save(false),
             Action::SaveAs(path) => self.save_as(path, false),
+            Action::SaveGroup(id, path) => self.save_group(&id, &path)?,
             Action::Choose(purpose) => self.choose(purpose),
             Action::Say(text) => return Ok(text),
         }

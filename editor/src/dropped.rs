@@ -9,6 +9,7 @@ use eframe::egui;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Material,
+    Group,
     Model,
     /// For nothing else.
     Environment,
@@ -22,6 +23,9 @@ pub(crate) enum Kind {
 fn kind(path: &Path) -> Option<Kind> {
     if path.to_str().is_some_and(|name| name.ends_with(".material.json")) {
         return Some(Kind::Material);
+    }
+    if path.to_str().is_some_and(|name| name.ends_with(".group.json")) {
+        return Some(Kind::Group);
     }
     match path.extension()?.to_str()?.to_lowercase().as_str() {
         "glb" | "gltf" => Some(Kind::Model),
@@ -61,7 +65,7 @@ pub(crate) fn left(context: &egui::Context) -> Option<String> {
         }
         Some(_) => "it is for the viewport, which is not shown",
         None => {
-            "it is nothing to drop here: materials are *.material.json, models .glb and .gltf, environments .hdr, .exr, .hdre, \
+            "it is nothing to drop here: materials are *.material.json, groups *.group.json, models .glb and .gltf, environments .hdr, .exr, .hdre, \
              .ktx2, pictures .png, .jpg, .tif, .webp, .tga and .bmp"
         }
     };

@@ -8,6 +8,7 @@ mod connecting;
 mod files;
 mod frames;
 mod functions;
+mod group_files;
 mod groups;
 mod hands;
 mod inspector;

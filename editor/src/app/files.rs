@@ -266,6 +266,7 @@ impl Editor {
                     self.files.lost.extend(lost);
                     self.files.question.get_or_insert(Question::Lost);
                 }
+                Report::Group(path, read) => self.add_group(&path, read),
                 Report::Done(text) => self.messages.tell(text),
                 Report::Failed(why) => self.messages.fail(why),
             }
@@ -366,10 +367,13 @@ impl Editor {
         }
     }
 
-    /// Opens a material that was dropped on the window. Models, environments and pictures belong to the panes.
+    /// Opens a material that was dropped on the window, and adds a node of each group. Models, environments and pictures belong to the panes.
     pub(crate) fn take_dropped(&mut self) {
         if let Some(path) = dropped::take(&self.context, |kind| kind == Kind::Material).into_iter().next() {
             self.ask(Next::Open(path));
+        }
+        for path in dropped::take(&self.context, |kind| kind == Kind::Group) {
+            self.files.order(Order::ReadGroup(path));
         }
     }
 
@@ -395,6 +399,6 @@ impl Editor {
     }
 }
 
-fn absolute(path: &Path) -> PathBuf {
+pub(super) fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

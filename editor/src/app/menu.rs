@@ -76,6 +76,10 @@ impl Editor {
         {
             actions.push(Action::Choose(Choose::ExportFolder));
         }
+        let help = "A node of a *.group.json file, with all that the group needs";
+        if ui.button("Add a group…").on_hover_text(help).clicked() {
+            actions.push(Action::Choose(Choose::Group));
+        }
         ui.separator();
         if entry(ui, "Close", Command::Close).clicked() {
             self.ask(super::files::Next::Close);

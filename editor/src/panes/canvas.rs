@@ -170,6 +170,11 @@ impl Canvas {
         self.wanted = vec![node];
     }
 
+    /// The place of the graph in the middle of what is seen, on the grid.
+    pub(crate) fn middle(&self) -> [f32; 2] {
+        self.view.map_or([0.0; 2], |view| view::to_grid(view.center).into())
+    }
+
     /// What cannot be seen well in the graph as it was drawn last, in words: a wire that runs behind a card which it has nothing to do with, a
     /// card on another one.
     pub(crate) fn tangles(&self) -> Vec<String> {

@@ -8,7 +8,7 @@ use crate::document::{Comment, Document, Frame, Group, GroupOutput, Node, Parame
 use crate::edit::{Edit, apply};
 use crate::file::{from_json, group_from_json, group_to_json, to_json};
 use crate::operation::{
-    GroupSide, Pasted, Pick, can_connect, collapse, copy, export_group, import_group, insert_on_link, paste,
+    GroupSide, Pasted, Pick, can_connect, collapse, copy, export_group, group_as_copied, insert_on_link, paste,
     remove_and_heal, rename_socket, ungroup,
 };
 use crate::value::{Type, Value};
@@ -137,17 +137,25 @@ fn groups_go_into_files_and_other_documents() {
     assert_eq!(group_from_json(&text).expect("a file"), file);
     assert!(group_from_json(&text.replace("\"group\": \"all\"", "\"group\": \"gone\"")).is_err());
     // Into an empty document, into one that has it, and into one that has another `part`.
-    let (edit, id) = import_group(&document(&[], &[]), &file).expect("an import");
-    let other = made(&document(&[], &[]), &edit);
-    assert_eq!((id.as_str(), &other.groups), ("all", &file.groups));
-    assert_eq!(import_group(&d, &file).expect("an import"), (Edit::Many(vec![]), "all".into()));
+    let copied = group_as_copied(file.clone()).expect("whole");
+    let with = |d: &Document| {
+        let Pasted { edit, pick, .. } = paste(d, small(), None, &copied, [7.0, 8.0]).expect("an edit");
+        let after = made(d, &edit);
+        let [id] = &pick.nodes[..] else { panic!("one node: {pick:?}") };
+        assert_eq!((after.graph.nodes[id].node.as_str(), after.graph.layout[id]), ("group/all", [7.0, 8.0]));
+        after
+    };
+    assert_eq!(with(&document(&[], &[])).groups, file.groups);
+    assert_eq!(with(&d).groups, d.groups);
     let mut clash = document(&[], &[]);
     clash.groups.insert("part".into(), Group::new("Another"));
-    let (edit, id) = import_group(&clash, &file).expect("an import");
-    let after = made(&clash, &edit);
-    assert_eq!(id, "all");
+    let after = with(&clash);
     assert_eq!(after.groups["part"], clash.groups["part"]);
     assert_eq!(after.groups["all"].graph.nodes.values().filter(|n| n.node == "group/part_2").count(), 1);
+    // A file that lacks what it needs.
+    let mut torn = file.clone();
+    torn.groups.remove("part");
+    assert!(group_as_copied(torn).expect_err("torn").0.contains("`group/part`, which is missing"));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use halfvector_graph::edit::Edit;
 use halfvector_graph::node_def::Default as InputDefault;
 use halfvector_graph::value::{SocketType, Type};
 
-use crate::action::Action;
+use crate::action::{Action, Choose};
 use crate::panes::inspector::input::value_from;
 use crate::panes::inspector::number::{self, Style};
 use crate::panes::inspector::row::{end_when_done, gives_up, named_text, row};
@@ -46,6 +46,13 @@ pub(crate) fn show(ui: &mut egui::Ui, session: &Session, id: &str, group: &Group
         set(Interface { help, ..interface.clone() }, actions);
     }
     end_when_done(&response, actions);
+    if ui
+        .button("Save to a file…")
+        .on_hover_text("As *.group.json, with all that it needs, for other materials")
+        .clicked()
+    {
+        actions.push(Action::Choose(Choose::SaveGroup(id.to_owned())));
+    }
     ui.separator();
     for (side, title) in [(Side::Inputs, "Inputs"), (Side::Outputs, "Outputs")] {
         let names = side.names(interface);
