@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use halfvector_reference::{Reference, RenderOptions};
+use halfvector_reference::{Conductor, EnvironmentFilter, Reference, RenderOptions};
 use halfvector_scene::{Display, Picture, Scene};
 
 use crate::environment::load;
@@ -21,6 +21,10 @@ pub(crate) struct ReferenceOptions {
     pub(crate) seed: u64,
     /// How often light goes from surface to surface.
     pub(crate) bounces: u32,
+    /// What the environment is between its texels.
+    pub(crate) filter: EnvironmentFilter,
+    /// A metal in the place of every material's Fresnel term.
+    pub(crate) conductor: Option<Conductor>,
 }
 
 /// Renders a scene to a file, with a progress bar, and tells of the noise that is left.
@@ -29,8 +33,9 @@ pub(crate) fn draw(scene: &Scene, options: ReferenceOptions, output: &PictureFil
         Failure::input("the picture could not be rendered").because(error)
     };
     let [width, height] = options.size;
-    let ReferenceOptions { seed, bounces, .. } = options;
-    let render = RenderOptions { width, height, seed, bounces, ..RenderOptions::default() };
+    let ReferenceOptions { seed, bounces, filter: environment_filter, conductor, .. } = options;
+    let render =
+        RenderOptions { width, height, seed, bounces, environment_filter, conductor, ..RenderOptions::default() };
     let environment = load(&scene.environment)?;
     let mut reference = Reference::new(scene, environment.as_ref(), render).map_err(failed)?;
     let bar = Mutex::new((progress("rendering"), 0.0_f32));

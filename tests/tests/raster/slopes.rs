@@ -154,6 +154,33 @@ fn ways(def: &NodeDef) -> Vec<Way> {
     ways
 }
 
+/// Normal maps of 8 bits on a polished metal, magnified: what is read between texels is not rounded to 8 bits on either side.
+#[test]
+fn normal_maps_of_8_bits_look_the_same_on_the_cpu() {
+    const TEXELS: u32 = 16;
+    let Some(renderer) = renderer() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let map = image::RgbImage::from_fn(TEXELS, TEXELS, |u, v| {
+        let slope = [0.4 * wave(1.0, u, TEXELS), 0.4 * wave(1.0, v + u, TEXELS)];
+        let length = (slope[0] * slope[0] + slope[1] * slope[1] + 1.0).sqrt();
+        image::Rgb([slope[0], slope[1], 1.0].map(|x| (127.5 + 127.5 * x / length).round() as u8))
+    });
+    map.save(folder.path().join("map.png")).expect("the map is saved");
+    let studio = baked(&EnvironmentSource::Studio);
+    for node in ["image", "triplanar"] {
+        let read = format!(
+            r#""node": "textures/{node}", "values": {{"image": {{"file": "map.png", "color_space": "linear"}}}}"#
+        );
+        let document = metal(&read, "color", Type::Vec3, Way::Normal, "");
+        for mesh in [BuiltinMesh::Plane, BuiltinMesh::Sphere] {
+            let scene = scene_of(&document, folder.path(), mesh);
+            let (apart, edges) = drawn(&renderer, &scene, studio.as_ref(), [96, 2]);
+            println!("{node}, {}: {:.3} % apart, {:.3} codes after the box", mesh.name(), apart * 100.0, edges / CODE);
+            assert!(apart <= MOST_APART && edges <= 4.0 * CODE, "{node}, {}: {apart}, {edges}", mesh.name());
+        }
+    }
+}
+
 /// Every node that reads a picture, and a document's own function, wherever the slope of what it reads is seen. A new node is tried as
 /// soon as it is there.
 #[test]

@@ -404,6 +404,23 @@ fn a_cancellation_is_no_underflow() {
     assert!(found.underflows >= 1024, "{found:?}");
 }
 
+/// What goes up and down within 2 ulp of an input is excused by that, though it is the same at the ends of that way, and told as an edge:
+/// strokes finer than f16 tells coordinates apart, and a sine that turns once from one number of f32 to the next.
+#[test]
+fn what_is_finer_than_the_numbers_is_an_edge() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/brushed-aluminium.material.json");
+    let document = halfvector_graph::file::load(&path).unwrap_or_else(|e| panic!("{e}"));
+    let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
+    let scene = Scene::from_material(document, Path::new(""), &sphere).unwrap_or_else(|e| panic!("{e}"));
+    let judged = |precision| stability(&scene, 0, precision).unwrap_or_else(|e| panic!("{e}"));
+    let (half, single) = (judged(Precision::Half), judged(Precision::Single));
+    assert!(half.unstable.is_empty(), "{:?}", half.unstable);
+    assert_eq!(edge_nodes(&half), ["strokes"]);
+    assert_eq!(single, Stability::default());
+    let sine = judged_function("return sin(uv.x * 52707180.0);");
+    assert_eq!((unstable_nodes(&sine), edge_nodes(&sine)), (vec![], vec!["f0"]), "{sine:?}");
+}
+
 /// What f32 does well f16 may not: a product beyond its largest number. What f16 computes well is not named.
 #[test]
 fn f16_is_judged_where_it_is_asked_for() {
