@@ -5,9 +5,11 @@
 
 use std::collections::HashMap;
 
+use halfvector_report::comparison::comparisons;
 use halfvector_report::part::{ibl, pictures, shaders::counted_rows};
 use halfvector_report::publish::{README_MARKS, RUN, files, readme};
-use halfvector_report::{Effort, PARTS, Part, Report, Row, Run};
+use halfvector_report::unit::Budget;
+use halfvector_report::{Effort, PARTS, Part, Report, Row, Run, words};
 
 use crate::support::{bless, root};
 
@@ -74,6 +76,35 @@ fn pages_and_tables_are_made_of_the_committed_run() {
         return;
     }
     assert!(page[begin..end] == readme(&report), "README.md differs from {RUN}; HALFVECTOR_BLESS=1 writes it anew");
+}
+
+/// What is said of the library's own methods is true in both figures, for every term of the committed run.
+#[test]
+fn what_is_told_of_the_library_is_better() {
+    let report = Report::from_json(&read(RUN)).expect("a report");
+    let page = halfvector_report::page::html(&report);
+    let mut told = 0;
+    for comparison in comparisons(&report.rows) {
+        for budget in Budget::ALL {
+            let choice = comparison.recommended(budget);
+            let Some(other) = choice.of_library else { continue };
+            told += 1;
+            let said =
+                format!("{} {}: {} for {}", comparison.term, budget.name(), other.row.method, choice.entry.row.method);
+            assert!(other.rms < choice.entry.rms, "{said}");
+            let keeps_alone = comparison.keeps(other, budget) && !choice.keeps;
+            assert!(other.cost <= choice.entry.cost || budget == Budget::Film || keeps_alone, "{said}");
+            // The sentence has both figures of both.
+            let remark = words::of_library(&comparison, &choice).expect("a remark");
+            for entry in [other, choice.entry] {
+                assert!(remark.contains(&words::error(entry.rms, comparison.unit)), "{said}: {remark}");
+                assert!(remark.contains(&words::cost(entry.cost, comparison.cost)), "{said}: {remark}");
+            }
+            assert!(page.contains(&remark), "{said}: {remark}");
+        }
+    }
+    println!("{told} remarks");
+    assert!(told > 0);
 }
 
 /// Examples whose pictures are drawn here: a plain material, and a scene with lamps.

@@ -2,13 +2,8 @@
 
 use crate::comparison::{Comparison, Entry};
 use crate::cost::Cost;
-use crate::timing::median;
+use crate::terms;
 use crate::unit::Budget;
-use crate::{Row, terms};
-
-/// Times on the device that spread by more than this, in the median of the methods, make no axis of a plot; the instructions of the same
-/// shaders do.
-const STEADY: f64 = 0.1;
 
 /// Times that differ by less, or by less than their spreads, are alike. Those of one machine differ by up to a quarter from run to run, and
 /// what is chosen must not.
@@ -19,12 +14,6 @@ const SAME: f64 = 1.05;
 
 /// Shaders whose instructions differ by less are as long.
 const AS_LONG: f64 = 0.05;
-
-/// The time on the device, or, where the rows' times are not steady, the instructions.
-pub(crate) fn steadier(rows: &[&Row]) -> Cost {
-    let spreads = rows.iter().map(|row| row.gpu_spread.unwrap_or(f64::INFINITY)).collect();
-    if median(spreads) <= STEADY { Cost::Device } else { Cost::Instructions }
-}
 
 /// What to take within a budget.
 #[derive(Clone, Copy, Debug)]
@@ -134,6 +123,7 @@ impl<'a> Comparison<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Row;
     use crate::comparison::comparisons;
 
     fn row(method: &str, domain: &str, error: f64, cost: f64) -> Row {

@@ -2,7 +2,6 @@
 //! beats.
 
 use crate::Row;
-use crate::choice::steadier;
 use crate::cost::Cost;
 use crate::part::ibl::NOT_TIMED;
 use crate::unit::Unit;
@@ -65,12 +64,9 @@ fn groups(rows: &[Row]) -> Vec<(Cost, Vec<usize>)> {
         let (timed, other): (Vec<_>, Vec<_>) =
             group.into_iter().partition(|&i| rows[i].cost_ns.or(rows[i].cost_batch_ns).is_some());
         for mut part in [timed, other] {
-            // The kind of cost that most of them have; the earlier of equals.
+            // The kind of cost that most of them have; the earlier of equals: the same in every run of a machine.
             let count = |cost: Cost| part.iter().filter(|&&i| cost.of(&rows[i]).is_some()).count();
-            let Some(mut cost) = Cost::ALL.into_iter().rev().max_by_key(|&cost| count(cost)) else { continue };
-            if cost == Cost::Device && count(Cost::Instructions) == count(cost) {
-                cost = steadier(&part.iter().map(|&i| &rows[i]).collect::<Vec<_>>());
-            }
+            let Some(cost) = Cost::ALL.into_iter().rev().max_by_key(|&cost| count(cost)) else { continue };
             part.retain(|&i| cost.of(&rows[i]).is_some());
             if !part.is_empty() {
                 groups.push((cost, part));

@@ -14,6 +14,7 @@ pub mod compare;
 pub mod comparison;
 pub mod cost;
 pub mod error;
+mod faults;
 pub mod missing;
 pub mod page;
 pub mod part;

@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-use crate::choice::Choice;
-use crate::comparison::{Comparison, Entry, comparisons};
+use crate::comparison::{Comparison, comparisons};
 use crate::cost::Cost;
 use crate::part::shaders;
 use crate::plot::{dark_rules, escaped, scatter};
-use crate::timing::median;
-use crate::unit::{Budget, Unit};
+use crate::unit::Unit;
 use crate::{PARTS, Report, Row, terms, words};
 
+mod choices;
+mod how;
 mod split_sum;
 mod tables;
 
@@ -28,7 +28,7 @@ pub fn html(report: &Report) -> String {
         .collect();
     let names: Vec<&str> = chapters.iter().map(|(term, _)| *term).collect();
     head(report, &comparisons, &names, &mut page);
-    choices(report, &comparisons, &mut page);
+    choices::choices(report, &comparisons, &mut page);
     for (term, text) in chapters {
         let _ = writeln!(
             page,
@@ -43,7 +43,7 @@ pub fn html(report: &Report) -> String {
         page.push_str(&text);
     }
     rounding(report, &mut page);
-    foot(report, &mut page);
+    how::foot(report, &mut page);
     page
 }
 
@@ -103,7 +103,12 @@ fn head(report: &Report, comparisons: &[Comparison<'_>], chapters: &[&str], page
 fn counted(report: &Report) -> String {
     let names: std::collections::HashSet<_> = report.rows.iter().map(|row| (&row.term, &row.method)).collect();
     let recorded = report.rows.iter().filter(|row| row.recorded.is_some()).count();
-    let mut text = format!("{} methods in {} cases, measured in this run", names.len(), report.rows.len() - recorded);
+    let count = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let mut text = format!(
+        "{} in {}, measured in this run",
+        count(names.len(), "method"),
+        count(report.rows.len() - recorded, "case")
+    );
     if report.rows.iter().any(|row| !row.part.is_empty() && !report.parts.contains(&row.part)) {
         text.push_str(" until it was interrupted");
     }
@@ -112,88 +117,6 @@ fn counted(report: &Report) -> String {
         1 => text + " (one more, of another program, was recorded earlier, as its line says)",
         n => format!("{text} ({n} more, of other programs, were recorded earlier, as their lines say)"),
     }
-}
-
-fn choices(report: &Report, comparisons: &[Comparison<'_>], page: &mut String) {
-    if comparisons.is_empty() {
-        return;
-    }
-    let _ = write!(
-        page,
-        "<h2 id=\"choose\">What to choose</h2>\n<p>Made from the figures below by one rule. Each budget takes the cheapest of the methods \
-         that err little enough.</p>\n<ul><li><b>Little enough</b> is an rms error of at most {} for <b>mobile</b> and {} for <b>desktop</b>; \
-         for <b>film</b> it is what is within 5 % of the least error. Where no method errs as little, the one for film stands there, and is \
-         marked <span class=\"tag plain\">over the limit</span>.</li>\n<li><b>Cheapest</b> is by the time on the device{}, where every method \
-         has one, and then by the instructions of the same shaders; else by the cost of the figure below. Times on one machine change from run \
-         to run: those that differ by less than 50 %, or by less than their spreads, are alike, as are instructions that differ by less than \
-         5 %. For mobile memory comes first, where it is known of all: of those that take up to half as long again as the cheapest, the one \
-         that reads the least.</li>\n<li>Of methods that are alike in all this it is the most <b>accurate</b>, and of equals that which \
-         <code>halfvector methods</code> lists first.</li></ul>\n<p>Only what <code>--method</code> knows is recommended. Where the library alone has a method that errs \
-         less it is named below, with what it costs: where that is no more, or only it keeps the limit, and for film at any \
-         cost.</p>\n{}<section class=\"card\"><div class=\"scroll\"><table class=\"choices\"><thead><tr><th>term</th>\
-         <th>mobile</th><th>desktop</th><th>film</th></tr></thead><tbody>\n",
-        words::limits(Budget::Mobile),
-        words::limits(Budget::Desktop),
-        device(comparisons).map_or(String::new(), |name| format!(" ({})", escaped(name))),
-        if comparisons.iter().any(|comparison| !report.unfinished(comparison.term).is_empty()) {
-            "<p><b>This run is not whole.</b> What is marked incomplete was chosen among what was measured, and may be another method \
-             when the parts that stand there are measured to their end.</p>\n"
-        } else {
-            ""
-        },
-    );
-    for comparison in comparisons {
-        let unfinished = report.unfinished(comparison.term);
-        let unfinished = match unfinished[..] {
-            [] => String::new(),
-            _ => format!("<br><span class=\"tag plain\">incomplete: {}</span>", escaped(&unfinished.join(", "))),
-        };
-        let truth = words::against(comparison.domains[0]).split_once("against ").map_or("", |(_, truth)| truth);
-        let inputs = words::inputs(&comparison.domains) + if truth.is_empty() { "" } else { "; against " } + truth;
-        let _ = write!(
-            page,
-            "<tr><td class=\"term\"><a href=\"#{0}\"><code>{0}</code></a>{unfinished}<br><span class=\"small muted\">{1}</span></td>",
-            escaped(comparison.term),
-            escaped(&inputs)
-        );
-        for budget in Budget::ALL {
-            let choice = comparison.recommended(budget);
-            let Choice { entry, weighed, keeps, library_only, .. } = choice;
-            let figures = figures(comparison, entry, weighed);
-            let over = if keeps { "" } else { "<span class=\"tag plain\">over the limit</span>" };
-            let tag = if library_only { "<span class=\"tag plain\">library only</span>" } else { "" };
-            let of_library = words::of_library(comparison, &choice)
-                .map_or(String::new(), |remark| format!("<br><span class=\"small muted\">{}</span>", escaped(&remark)));
-            let _ = write!(
-                page,
-                "<td data-label=\"{}\"><b>{}</b>{tag}{over}<br><span class=\"muted\">{}</span>{of_library}</td>",
-                budget.name(),
-                escaped(&entry.row.method),
-                escaped(&figures)
-            );
-        }
-        page.push_str("</tr>\n");
-    }
-    page.push_str("</tbody></table></div></section>\n");
-}
-
-/// The device that shaders were timed on.
-fn device<'a>(comparisons: &[Comparison<'a>]) -> Option<&'a str> {
-    comparisons.iter().flat_map(|comparison| &comparison.entries).find_map(|entry| entry.row.gpu.as_deref())
-}
-
-/// Error and cost of a choice.
-fn figures(comparison: &Comparison<'_>, entry: &Entry<'_>, weighed: Cost) -> String {
-    let cost = match weighed.of(entry.row).filter(|_| weighed != comparison.cost) {
-        Some(cost) => words::cost(cost, weighed),
-        None => words::cost(entry.cost, comparison.cost),
-    };
-    let place = if weighed == Cost::Device { " on the device" } else { "" };
-    let memory = entry.row.bytes.filter(|_| weighed != Cost::Bytes && comparison.cost != Cost::Bytes);
-    let memory = memory.map_or(String::new(), |bytes| format!(", {}", words::cost(bytes as f64, Cost::Bytes)));
-    let count = entry.row.instructions.filter(|_| weighed == Cost::Device);
-    let count = count.map_or(String::new(), |count| format!(", {}", words::cost(count as f64, Cost::Instructions)));
-    format!("{}, {cost}{place}{count}{memory}", words::error(entry.rms, comparison.unit))
 }
 
 /// What there is to show of a term, below its heading; empty when it is told elsewhere.
@@ -276,11 +199,12 @@ fn figure(comparison: &Comparison<'_>, report: &Report, page: &mut String) {
         page,
         "<figure>\n<h3>{}</h3>\n<div class=\"scroll\">{}</div>\n<figcaption><p class=\"legend\"><span><i class=\"dot\"></i>unbeaten: nothing else is both cheaper \
          and at least as accurate</span><span><i class=\"dot beaten\"></i>beaten</span><span>★ the default</span></p>\
-         <p><b>How:</b> {}. {}{full_stop} {}{sure} Down and to the left is better.{whiskers}</p></figcaption>\n",
+         <p><b>How:</b> {}. {}{full_stop}{} {}{sure} Down and to the left is better.{whiskers}</p></figcaption>\n",
         code(&words::finding(comparison)),
         scatter(comparison),
         escaped(&capital(&words::inputs(&comparison.domains))),
         escaped(&against),
+        points(&cases),
         escaped(&comparison.how()),
     );
     table(comparison, page);
@@ -290,6 +214,22 @@ fn figure(comparison: &Comparison<'_>, report: &Report, page: &mut String) {
         page.push_str("</details>\n");
     }
     page.push_str("</figure>\n");
+}
+
+/// How many inputs the errors of some rows are of, and what their largest error is; nothing where it is not known of all.
+fn points(rows: &[&Row]) -> String {
+    let Some(counts) = rows.iter().map(|row| row.points).collect::<Option<Vec<u64>>>() else { return String::new() };
+    let (Some(least), Some(most)) = (counts.iter().min(), counts.iter().max()) else { return String::new() };
+    let [least, most] = [*least, *most].map(|count| words::number(count as f64));
+    let count = if least == most { least } else { format!("{least} to {most}") };
+    let largest = match rows.iter().filter(|row| row.searched).count() {
+        0 => "the largest error is the largest of these",
+        found if found == rows.len() => "for the largest error it is searched on from the worst of these",
+        _ => {
+            "the largest error is the largest of these, or of a search from the worst of them where that can be larger"
+        }
+    };
+    format!(" Each error is of {count} inputs; {largest}.")
 }
 
 /// A cell with a number: shown short, sorted by its whole value.
@@ -398,105 +338,6 @@ fn rounding(report: &Report, page: &mut String) {
     page.push_str("</tbody></table></div></section>\n");
 }
 
-fn foot(report: &Report, page: &mut String) {
-    let device = report.rows.iter().find_map(|row| row.gpu.as_deref()).map_or(String::new(), |name| {
-        let spreads: Vec<f64> = report.rows.iter().filter_map(|row| row.gpu_spread).collect();
-        format!(
-            "<p><b>Device pixel</b> is the time of that shader for one pixel by the timestamps of {}: the shortest of several \
-             passes, in the fastest of five sittings. The sitting in the middle took {} % longer, in the median of all methods.</p>",
-            escaped(name),
-            words::number(100.0 * median(spreads))
-        )
-    });
-    let (words, nulls) = (glossary(), nulls(report));
-    let _ = write!(
-        page,
-        "<h2 id=\"how\">How it is measured</h2>\n<section class=\"card\">\n<p><b>Errors</b> are differences from a truth in 64-bit \
-         arithmetic: exact equations, converged quadrature or a sum over every texel, as each figure says. The points are the \
-         same in every run, so the errors are, too.</p>\n<p><b>Times</b> are of {}. The methods of a figure run in turns, so \
-         that a slow moment meets all of them alike, in five sittings with some time between them; what stands is the median of \
-         the fastest sitting, because whatever else the machine does only adds. Batches are of 1,024 elements, which stay in the \
-         nearest cache, in columns that begin at cache lines. Read times as ratios within a figure: another machine has other \
-         nanoseconds.</p>\n<p><b>Instructions</b> are those of \
-         the whole fragment stage of one plain shader with the method, in SPIR-V as naga writes it, before a driver optimises it; \
-         called functions count where they are called. What a method adds is its difference from another method.</p>{device}\n<p><b>The front</b>: a method \
-         is marked when no other on the same inputs is cheaper and at least as accurate. Times within their spread, 20 % at most, count as \
-         alike.</p>\n{words}{nulls}<p>The same figures stand in <code>report.json</code> and in one CSV file for each part.</p>\n</section>\n\
-         </main>\n<footer>Made by <code>halfvector report</code> on {}.</footer>\n<script>\n{SORT}</script>\n</body>\n</html>\n",
-        escaped(&report.machine),
-        escaped(&report.date),
-    );
-}
-
-/// Words that the names of methods and inputs take for known.
-fn glossary() -> String {
-    const WORDS: [(&str, &str); 14] = [
-        (
-            "the report's",
-            "the form of the report that this project began with; kept beside the better ones, to be measured",
-        ),
-        ("default", "what is taken when nothing is chosen"),
-        (
-            "relative, absolute",
-            "a relative error is a part of the truth, in %; an absolute one is a difference of quantities that go from 0 to 1",
-        ),
-        ("rms error", "root of the mean square of the errors over the inputs"),
-        ("largest at", "the input of the largest error, by the names of the function's arguments"),
-        ("n.v, n.l, n.h, l.h", "cosines between the normal, the directions of view and light, and the half vector"),
-        ("roughness, alpha", "perceptual roughness, 0 to 1, and its square, which the equations take"),
-        (
-            "level",
-            "a smaller copy of an environment, blurred for one roughness; a shader mixes the two nearest (trilinear)",
-        ),
-        ("six levels", "the report's layout of an environment: levels for roughness 0, 0.2, ... 1"),
-        ("SH", "spherical harmonics: a few numbers for light from all directions; sh2 has nine"),
-        (
-            "MikkTSpace",
-            "the way of making tangents of a mesh that programs agree on (Mikkelsen 2008), so that normal maps fit",
-        ),
-        ("BC5", "blocks of two channels that GPUs read packed, one byte a texel"),
-        ("FLIP", "how different two pictures look side by side, 0 to 1 (Andersson et al. 2021)"),
-        ("ulp", "the distance of neighbouring numbers of a format"),
-    ];
-    let lines: String = WORDS
-        .iter()
-        .map(|(word, meaning)| format!("<dt>{}</dt><dd>{}</dd>", escaped(word), escaped(meaning)))
-        .collect();
-    format!("<p><b>Words</b></p>\n<dl>{lines}</dl>\n")
-}
-
-/// Why cells are empty.
-fn nulls(report: &Report) -> String {
-    if report.nulls.is_empty() {
-        return String::new();
-    }
-    // The terms that share a reason make one line.
-    let mut lines: Vec<(&str, Vec<&str>, &str, &str)> = Vec::new();
-    for null in &report.nulls {
-        let is_same = |line: &&mut (&str, Vec<&str>, &str, &str)| {
-            [line.0, line.2, line.3] == [null.part.as_str(), null.figure.as_str(), null.why.as_str()]
-        };
-        match lines.iter_mut().find(is_same) {
-            Some((_, terms, ..)) => terms.push(&null.term),
-            None => lines.push((&null.part, vec![&null.term], &null.figure, &null.why)),
-        }
-    }
-    let row = |(part, terms, figure, why): &(&str, Vec<&str>, &str, &str)| {
-        format!(
-            "<tr><td>{}</td><td>{}</td><td><code>{}</code></td><td>{}</td></tr>\n",
-            escaped(part),
-            escaped(&terms.join(", ")),
-            escaped(figure),
-            escaped(why)
-        )
-    };
-    format!(
-        "<details><summary>Why figures are not there</summary><div class=\"scroll\"><table><thead><tr><th>part</th><th>terms</th>\
-         <th>figure</th><th>why some of its rows have none</th></tr></thead><tbody>\n{}</tbody></table></div></details>\n",
-        lines.iter().map(row).collect::<String>()
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -520,7 +361,7 @@ mod tests {
         report.rows = vec![of("ours"), Row { recorded: Some("2026-11-22, a machine".into()), ..of("theirs") }];
         let page = html(&report);
         assert!(
-            page.contains("2 methods in 1 cases, measured in this run until it was interrupted (one more, "),
+            page.contains("2 methods in 1 case, measured in this run until it was interrupted (one more, "),
             "{page}"
         );
         report.parts.push("peers".into());

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::faults;
 use crate::missing::{self, LeftOut, Null};
 use crate::part::shaders;
 use crate::{Effort, PARTS, Row, mark_pareto, write};
@@ -33,9 +34,20 @@ pub struct Report {
 /// The version of the layout.
 const SCHEMA: u32 = 1;
 
-/// Domains that have other words now, so that rows of older reports are known again.
-const RENAMED: [(&str, &str); 1] =
-    [("8-bit codes, normals of tilt 0..80 deg; angle to the stored normal in degrees", super::part::DECODED)];
+/// Words of domains that are others now, so that rows of older reports are known again.
+const RENAMED: [(&str, &str); 5] = [
+    ("8-bit codes, normals of tilt 0..80 deg; angle to the stored normal in degrees", super::part::DECODED),
+    (
+        "normals of tilt 0..80 deg, stored with 8 bits a channel where the name says nothing else; angle to the stored normal in degrees",
+        super::part::DECODED,
+    ),
+    ("n.v and n.l logarithmic in 0.01..1, alpha", "n.v and n.l logarithmic in 0.01..1 at any azimuth, alpha"),
+    ("n.v and n.l logarithmic in 0.01..1, roughness", "n.v and n.l logarithmic in 0.01..1 at any azimuth, roughness"),
+    (
+        "n.v and n.l logarithmic in 0.01..1 in one plane with the tangent",
+        "n.v and n.l logarithmic in 0.01..1, each at any azimuth from the tangent",
+    ),
+];
 
 /// Why a text is no report.
 #[derive(Debug, thiserror::Error)]
@@ -46,6 +58,9 @@ pub enum ReportError {
     /// Of a later layout.
     #[error("its layout is version {0}; this program reads version {SCHEMA}")]
     Version(u32),
+    /// With what no run can have measured.
+    #[error("{0}")]
+    Impossible(String),
 }
 
 impl Report {
@@ -100,18 +115,21 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// When the text is not JSON of this layout.
+    /// When the text is not JSON of this layout, or holds what no run can have measured.
     pub fn from_json(text: &str) -> Result<Report, ReportError> {
         let mut report: Report = serde_json::from_str(text)?;
         if report.schema != SCHEMA {
             return Err(ReportError::Version(report.schema));
         }
         for row in &mut report.rows {
-            if let Some((_, now)) = RENAMED.iter().find(|(before, _)| *before == row.domain) {
-                (*now).clone_into(&mut row.domain);
+            for (before, now) in RENAMED {
+                row.domain = row.domain.replace(before, now);
             }
         }
-        Ok(report)
+        match faults::first(&report) {
+            Some(fault) => Err(ReportError::Impossible(fault)),
+            None => Ok(report),
+        }
     }
 
     /// The text of `report.json`, one row a line, so that two of them can be compared by eye. Numbers that JSON cannot hold
@@ -144,7 +162,11 @@ mod tests {
         assert_eq!(error.to_string(), "its layout is version 2; this program reads version 1");
         Report::from_json("{}").expect_err("no report");
         report.schema = 1;
-        report.rows = vec![Row::new("normal_decode", "unorm", RENAMED[0].0)];
-        assert_eq!(Report::from_json(&report.to_json()).expect("a report").rows[0].domain, RENAMED[0].1);
+        for (before, now) in RENAMED {
+            report.rows = vec![Row::new("normal_decode", "unorm", before)];
+            assert_eq!(Report::from_json(&report.to_json()).expect("a report").rows[0].domain, now);
+            report.rows = vec![Row::new("normal_decode", "unorm", now)];
+            assert_eq!(Report::from_json(&report.to_json()).expect("a report").rows[0].domain, now);
+        }
     }
 }

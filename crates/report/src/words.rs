@@ -150,30 +150,34 @@ pub fn finding(comparison: &Comparison<'_>) -> String {
     format!("`{name}` {errs}; `{}` {saves} but errs {}", cheapest.row.method, text(cheapest))
 }
 
-/// What number formats do to the hard cases: how far off the worst forms are, and how many give no number.
+/// What number formats do to the hard cases: in which of them forms give no number, and how far off the others are.
 pub fn precision(rows: &[&Row]) -> String {
-    let worst = |format: &str| {
-        let mut own: Vec<(f64, &str)> = rows
-            .iter()
-            .filter(|row| row.method.split(' ').any(|word| word == format))
-            .filter_map(|row| Some((row.error_max?, row.method.as_str())))
-            .collect();
-        own.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let (most, name) = *own.first()?;
-        // One that is far off by itself does not speak for the others.
-        let next = own.get(1).filter(|next| most > 100.0 * next.0);
-        let next =
-            next.map_or(String::new(), |(next, name)| format!(", the next, `{name}`, {}", error(*next, Unit::Ulps)));
-        Some(format!("in {format} `{name}` is the farthest off, {}{next}", error(most, Unit::Ulps)))
-    };
-    let lost = rows.iter().filter(|row| row.not_finite > Some(0)).count();
-    let lost = match lost {
-        0 => "nothing gives NaN or infinity".to_owned(),
-        _ => format!("{lost} of {} give NaN or infinity where the right result is a number", rows.len()),
-    };
-    let said: Vec<String> = [worst("f32"), worst("f16")].into_iter().flatten().chain([lost]).collect();
+    // The distance of neighbouring numbers is at most this part of them.
+    let said: Vec<String> = [("f32", 2_f64.powi(-23)), ("f16", 2_f64.powi(-10))]
+        .into_iter()
+        .filter_map(|(format, part)| {
+            let is_own = |row: &&&Row| row.method.split(' ').any(|word| word == format);
+            let mut own: Vec<&Row> = rows.iter().filter(is_own).copied().collect();
+            let lost = own.iter().filter(|row| row.not_finite > Some(0)).count();
+            own.sort_by(|a, b| b.error_max.partial_cmp(&a.error_max).unwrap_or(std::cmp::Ordering::Equal));
+            let most = |at: usize| own.get(at).and_then(|row| row.error_max);
+            // One that is far off by itself does not speak for the others.
+            let alone = most(1).zip(most(0)).is_some_and(|(next, most)| most > 100.0 * next);
+            let farthest = most(usize::from(alone))?;
+            let off = format!("{} ({})", error(farthest, Unit::Ulps), error(part * farthest, Unit::Relative));
+            let but = if alone { format!(" but for `{}`", own[0].method) } else { String::new() };
+            Some(match (lost, own.len()) {
+                (0, count) => format!("in {format} each of {count} forms gives numbers, at most {off} off{but}"),
+                (lost, count) => format!(
+                    "in {format} {lost} of {count} forms {} NaN or infinity where the right result is a number, and what is a number is up \
+                     to {off} off{but}",
+                    if lost == 1 { "gives" } else { "give" }
+                ),
+            })
+        })
+        .collect();
     let text = said.join("; ");
-    text[..1].to_uppercase() + &text[1..]
+    text.chars().take(1).flat_map(char::to_uppercase).chain(text.chars().skip(1)).collect()
 }
 
 /// The inputs of the domains of a comparison, without repeating what they share.
@@ -256,8 +260,8 @@ mod tests {
             [row("d_a f32 device", 9e6, 0), row("d_b f32", 67.0, 0), row("d_b f16", 3.0, 2), row("d_b f64", 0.0, 0)];
         assert_eq!(
             precision(&rows.iter().collect::<Vec<_>>()),
-            "In f32 `d_a f32 device` is the farthest off, 9.0×10⁶ ulp, the next, `d_b f32`, 67 ulp; in f16 `d_b f16` is the \
-             farthest off, 3.0 ulp; 1 of 4 give NaN or infinity where the right result is a number"
+            "In f32 each of 2 forms gives numbers, at most 67 ulp (8.0×10⁻⁴ %) off but for `d_a f32 device`; in f16 1 of 1 forms gives \
+             NaN or infinity where the right result is a number, and what is a number is up to 3.0 ulp (0.29 %) off"
         );
     }
 

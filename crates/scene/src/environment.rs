@@ -165,9 +165,15 @@ pub enum Background {
     Color([f32; 3]),
 }
 
-/// The bytes of a file that has no more than `limit`.
+/// The bytes of a file that has no more than `limit`. What is named beside the project, `../shared/data/...`, and is not there
+/// is looked for in the folder that the variable `HALFVECTOR_DATA` names.
 pub(crate) fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
-    let file = File::open(path).map_err(|e| e.to_string())?;
+    let data = std::env::var_os("HALFVECTOR_DATA").map(PathBuf::from);
+    let there = elsewhere(path, data.as_deref()).filter(|_| !path.exists());
+    let file = File::open(there.as_deref().unwrap_or(path)).map_err(|error| match within_data(path) {
+        Some(_) => format!("{error}; the folder shared/data may be elsewhere: HALFVECTOR_DATA names it"),
+        None => error.to_string(),
+    })?;
     let mut bytes = Vec::new();
     file.take(limit + 1).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
     if bytes.len() as u64 > limit {
@@ -176,9 +182,38 @@ pub(crate) fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
+/// What a path names within the last `shared/data` of it.
+fn within_data(path: &Path) -> Option<PathBuf> {
+    let parts: Vec<_> = path.components().collect();
+    let at = parts.windows(2).rposition(|pair| pair[0].as_os_str() == "shared" && pair[1].as_os_str() == "data")?;
+    let rest: PathBuf = parts[at + 2..].iter().collect();
+    (!rest.as_os_str().is_empty()).then_some(rest)
+}
+
+/// The same in the folder of data.
+fn elsewhere(path: &Path, data: Option<&Path>) -> Option<PathBuf> {
+    Some(data?.join(within_data(path)?))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn data_beside_the_project_may_be_elsewhere() {
+        let data = Some(Path::new("/data"));
+        let helmet = Path::new("examples/../../shared/data/models/a.gltf");
+        assert_eq!(elsewhere(helmet, data), Some(PathBuf::from("/data/models/a.gltf")));
+        assert_eq!(elsewhere(helmet, None), None);
+        for other in ["a.gltf", "shared/a.gltf", "data/shared/a.gltf", "../shared/data"] {
+            assert_eq!(elsewhere(Path::new(other), data), None, "{other}");
+        }
+        let folder = tempfile::tempdir().expect("a folder");
+        let absent = read_limited(&folder.path().join("shared/data/no-such.png"), 1).expect_err("no file");
+        assert!(absent.contains("HALFVECTOR_DATA"), "{absent}");
+        let absent = read_limited(&folder.path().join("no-such.png"), 1).expect_err("no file");
+        assert!(!absent.contains("HALFVECTOR_DATA"), "{absent}");
+    }
 
     #[test]
     fn six_faces_by_folder_and_by_pattern() {

@@ -54,6 +54,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
         failure.try_to("another folder, or one with other permissions")
     })?;
     let kept = Kept::begun(&args.output, effort);
+    kept.try_out(&parts)?;
     let start = Instant::now();
     let all: f64 = parts.iter().map(|part| part.seconds(effort)).sum();
     let mut took: Vec<(&Part, f64)> = Vec::new();
@@ -110,12 +111,15 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     Ok(if worse == 0 { 0 } else { FOUND })
 }
 
-/// Whether an old report has any of the parts that are to be measured.
+/// Whether an old report has rows of any of the parts that are to be measured.
 fn comparable(old: &Report, path: &Path, parts: &[&Part]) -> Result<(), Failure> {
-    if parts.iter().any(|part| old.parts.iter().any(|name| name == part.name)) {
+    // Rows of before parts were told name none.
+    let has_rows = |name: &str| old.rows.iter().any(|row| row.part == name || row.part.is_empty());
+    if parts.iter().any(|part| has_rows(part.name) && old.parts.iter().any(|name| name == part.name)) {
         return Ok(());
     }
-    let its = if old.parts.is_empty() { "no part".to_owned() } else { old.parts.join(", ") };
+    let its: Vec<&str> = old.parts.iter().map(String::as_str).filter(|name| has_rows(name)).collect();
+    let its = if its.is_empty() { "no part that was measured to its end".to_owned() } else { its.join(", ") };
     let names: Vec<&str> = parts.iter().map(|part| part.name).collect();
     let failure = Failure::input("the old report has nothing to compare").at(path);
     Err(failure

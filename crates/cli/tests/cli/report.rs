@@ -48,6 +48,53 @@ fn rows(report: &Value) -> &[Value] {
     report["rows"].as_array().map_or(&[], Vec::as_slice)
 }
 
+/// A folder stands where a file of the report would be: that is told before anything is measured.
+#[test]
+fn a_place_that_cannot_be_written_is_told_at_once() {
+    for name in ["index.html", "mips.csv", "report.json"] {
+        let folder = Folder::new();
+        std::fs::create_dir_all(folder.path("out").join(name)).expect("a folder");
+        let run = folder.run(&["report", "--quick", "--only", "mips", "-o", "out"]).ends(1).says(name);
+        assert!(!run.stderr.contains("mips: "), "{name}: {}", run.stderr);
+    }
+    // What stands there stays until there is something new.
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("out")).expect("a folder");
+    folder.write("out/report.json", "kept");
+    std::fs::create_dir(folder.path("out/mips.csv")).expect("a folder");
+    folder.run(&["report", "--quick", "--only", "mips", "-o", "out"]).ends(1);
+    assert_eq!(std::fs::read_to_string(folder.path("out/report.json")).expect("it stays"), "kept");
+}
+
+/// An old report with what no run can have measured is refused with the place, the reason and a remedy, before anything is measured.
+#[test]
+fn an_impossible_old_report_is_refused_at_once() {
+    let folder = Folder::new();
+    folder.run(&["report", "--quick", "--only", "mips", "-o", "out"]).ends(0);
+    let old = std::fs::read_to_string(folder.path("out/report.json")).expect("a report");
+    let with = |spoil: &dyn Fn(&mut Value)| {
+        let mut report: Value = serde_json::from_str(&old).expect("JSON");
+        spoil(&mut report);
+        report.to_string()
+    };
+    let cases = [
+        (with(&|report| report["rows"][1]["cost_ns"] = (-3.0).into()), "row 2 (normal_mips "),
+        (with(&|report| report["rows"][0]["error_rms"] = (-1.0).into()), "error_rms is -1"),
+        (with(&|report| report["rows"] = Value::Array(Vec::new())), "no part that was measured to its end"),
+        (with(&|report| report["parts"] = Value::Array(Vec::new())), "no part that was measured to its end"),
+        (with(&|report| report["rows"][0] = report["rows"][1].clone()), "is there twice"),
+        (old.replacen("\"cost_ns\":", "\"cost_ns\":NaN,\"was\":", 1), "it is not a report: "),
+        (old[..old.len() / 2].to_owned(), "it is not a report: "),
+        ("{}".to_owned(), "it is not a report: "),
+    ];
+    for (text, why) in cases {
+        folder.write("old.json", &text);
+        let run = folder.run(&["report", "--quick", "--only", "mips", "-o", "new", "--compare", "old.json"]).ends(1);
+        assert!(run.stderr.contains("old.json") && run.stderr.contains(why), "{why}: {}", run.stderr);
+        assert!(!folder.path("new").exists(), "{why}");
+    }
+}
+
 /// Killed in the middle of its only part, before anything of it was timed: what was judged is there, whole, and says what it lacks.
 #[test]
 fn a_killed_report_keeps_the_rows_of_a_part() {

@@ -142,7 +142,8 @@ fn plain(rows: &[&Row], page: &mut String) {
         let against = distinct(own.iter().map(|row| words::against(&row.domain)));
         let shared = if own.len() > 1 && against.len() == 1 { against[0] } else { "" };
         let above = [inputs, shared].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; ");
-        let _ = writeln!(page, "<tr class=\"case\"><td colspan=\"{across}\">{}</td></tr>", escaped(&above));
+        let _ =
+            writeln!(page, "<tr class=\"case\"><td colspan=\"{across}\"><span>{}</span></td></tr>", escaped(&above));
         for row in own {
             let _ = write!(page, "<tr><td>{}{}</td>", escaped(&row.method), tags(row));
             let error = |x| words::error(x, Unit::of(&row.domain));

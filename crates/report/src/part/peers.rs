@@ -32,7 +32,7 @@ pub fn rows(run: &Run<'_>) -> Vec<Row> {
     run.keep(&rows, 0.3);
     rows.extend(shaders());
     run.keep(&rows, 0.5);
-    rows.extend(bakes(effort));
+    rows.extend(bakes(effort, "cmgen"));
     rows
 }
 
@@ -138,8 +138,8 @@ struct Levels {
     in_map: fn([f64; 3]) -> [f64; 3],
 }
 
-/// Bakes of the same map, in turns with Filament's tool, and the error of each at texel centres of its levels.
-fn bakes(effort: Effort) -> Vec<Row> {
+/// Bakes of the same map, in turns with Filament's tool, a program of this name, and the error of each at texel centres of its levels.
+fn bakes(effort: Effort, cmgen: &str) -> Vec<Row> {
     const WORK: &str = "bake of the sky to faces of 256 texels, processor time of all cores, levels of roughness >= 0.2 at texel centres";
     const AGAINST: &str = "relative error against a sum over texels of the same file";
     let folder = std::env::temp_dir().join(format!("halfvector-report-{}", std::process::id()));
@@ -160,7 +160,7 @@ fn bakes(effort: Effort) -> Vec<Row> {
             continue;
         }
         let before = processor_seconds(true);
-        let made = Command::new("cmgen")
+        let made = Command::new(cmgen)
             .args(["--quiet", "--size=256", "--ibl-samples=1024", "--no-mirror", "--format=exr"])
             .arg(format!("--ibl-ld={}", folder.display()))
             .arg(&map)
@@ -199,7 +199,9 @@ fn bakes(effort: Effort) -> Vec<Row> {
     };
     let ours = row("our bake", "levels, irradiance and harmonics", &ours, our_levels);
     let made = if theirs.is_empty() { Err(absent.unwrap_or("nothing was timed".to_owned())) } else { Ok(None) };
-    let theirs = row("Filament's cmgen", "its levels alone, 1,024 samples", &theirs, their_levels);
+    let unread = their_levels.is_none().then(|| "it wrote no levels that can be read".to_owned());
+    let mut theirs = row("Filament's cmgen", "its levels alone, 1,024 samples", &theirs, their_levels);
+    theirs.note = unread.filter(|_| made.is_ok());
     // Seconds, and the errors.
     let recorded = Some([9.58, 0.0406, 0.187]);
     let theirs = other(theirs, made, recorded, |row, figures| {
@@ -284,6 +286,32 @@ pub fn write_hdr(environment: &LoadedEnvironment, folder: PathBuf) -> Option<Pat
 mod tests {
     use super::*;
     use crate::part::ibl::unit;
+
+    /// Filament's tool is run where there is one: its time is that of this run, and what it wrote is judged.
+    #[cfg(unix)]
+    #[test]
+    fn a_tool_that_is_there_is_run() {
+        use std::os::unix::fs::PermissionsExt;
+        let absent = bakes(Effort::Quick, "no-such-cmgen");
+        assert!(absent[1].recorded.is_some() && absent[1].error_rms.is_some(), "{absent:?}");
+        assert!(absent[1].note.as_deref().is_some_and(|note| note.contains("not measured in this run")), "{absent:?}");
+
+        let folder = std::env::temp_dir().join(format!("halfvector-report-cmgen-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let tool = folder.join("cmgen");
+        // Takes its time, and writes nothing.
+        std::fs::write(&tool, "#!/bin/sh\ni=0\nwhile [ $i -lt 100000 ]; do i=$((i+1)); done\n").expect("a script");
+        std::fs::set_permissions(&tool, std::fs::Permissions::from_mode(0o755)).expect("a script");
+        let rows = bakes(Effort::Quick, &tool.to_string_lossy());
+        let _ = std::fs::remove_dir_all(&folder);
+        let theirs = &rows[1];
+        assert!(theirs.recorded.is_none() && theirs.error_rms.is_none(), "{theirs:?}");
+        assert_eq!(theirs.note.as_deref(), Some("it wrote no levels that can be read"));
+        if cfg!(target_os = "linux") {
+            assert!(theirs.cost_ns.is_some_and(|time| time < 9e9), "{theirs:?}");
+        }
+        assert!(rows[0].error_rms.is_some_and(|error| error < 1e-3), "{rows:?}");
+    }
 
     /// What is exact has no error, in whatever frame its cube is; another frame has one.
     #[test]

@@ -11,7 +11,7 @@ use halfvector_maps::texel::{normal_from_texel_snorm, normal_from_texel_two_chan
 use rayon::prelude::*;
 
 use super::ibl::unit;
-use crate::search::Search;
+use crate::search::{CHEAP, Search};
 use crate::{Effort, Row};
 
 type Vector = [f64; 3];
@@ -26,6 +26,7 @@ pub(super) fn rows(effort: Effort) -> Vec<Row> {
     let mut rows = decoded(effort.pick(20_000, 200_000));
     rows.extend(odd_texels());
     rows.extend(heights(effort.pick(2_000, 20_000)));
+    rows.extend(heights_on_ball(effort.pick(4_000, 40_000)));
     rows
 }
 
@@ -196,8 +197,7 @@ fn heights(count: usize) -> Vec<Row> {
         let mut row = Row::new("height_normals", name, DOMAIN);
         RELIEF.errors_of(own, |place| angles(place)[method], at).fill(&mut row);
         if ["report", "derived", "moved vertices, their own normals"].contains(name) {
-            row.note =
-                Some("its cost is that of the fragment stage: moving the vertices of the mesh is not in it".to_owned());
+            row.note = Some(MOVING.to_owned());
         }
         row
     };
@@ -210,6 +210,50 @@ const HEIGHTS: [&str; 5] =
 
 /// How much is searched for the largest error on a relief.
 const RELIEF: Search = Search { starts: 6, rounds: 8 };
+
+/// Radius of a ball raised by rings, at an angle from its pole.
+fn rings(theta: f64) -> f64 {
+    1.0 + DEPTH * (0.5 + 0.5 * (12.0 * theta).cos())
+}
+
+/// The shading normal of rings on a ball, where the surface under the height map is bent itself: the ball's normal, and the one
+/// derived from neighbouring pixels of what was moved.
+fn heights_on_ball(count: usize) -> Vec<Row> {
+    const DOMAIN: &str =
+        "rings 0.05 high, 12 around a ball of radius 1, pixels of 1/400; angle to the raised ball's normal in degrees";
+    let direction = |theta: f64, phi: f64| tilted(theta.to_degrees(), phi);
+    let angles = |[s, t]: [f64; 2]| -> [f64; 2] {
+        let (theta, phi) = (0.2 + 2.7 * s, std::f64::consts::TAU * t);
+        let up = direction(theta, phi);
+        let moved = |theta: f64, phi: f64| direction(theta, phi).map(|x| rings(theta) * x);
+        const STEP: f64 = 1e-6;
+        let slope = (rings(theta + STEP) - rings(theta - STEP)) / (2.0 * STEP);
+        let along = direction(theta + std::f64::consts::FRAC_PI_2, phi);
+        let truth = unit(std::array::from_fn(|i| up[i] - slope / rings(theta) * along[i]));
+        // Two directions of the screen, 30 degrees from the rings.
+        let pixel = |a: f64, b: f64| [theta + PIXEL * a, phi + PIXEL * b / theta.sin()];
+        let by = |[to_theta, to_phi]: [f64; 2]| {
+            let (here, there) = (moved(theta, phi), moved(to_theta, to_phi));
+            (std::array::from_fn(|i| there[i] - here[i]), rings(to_theta) - rings(theta))
+        };
+        let ((p_x, h_x), (p_y, h_y)) = (by(pixel(0.5, 0.866)), by(pixel(0.866, -0.5)));
+        [up, normal_from_height(p_x, p_y, up, h_x, h_y)].map(|n| degrees_between(n, truth))
+    };
+    let place = |k: usize| [0.754_877_666, 0.569_840_291].map(|step: f64| (0.5 + step * k as f64).fract());
+    let at = |[s, t]: [f64; 2]| {
+        format!("angle from the pole = {:.1} deg, around it = {:.1} deg", (0.2 + 2.7 * s).to_degrees(), 360.0 * t)
+    };
+    let row = |method: usize| {
+        let mut row = Row::new("height_normals", HEIGHTS[method], DOMAIN);
+        CHEAP.errors((0..count).map(place), |place| angles(place)[method], at).fill(&mut row);
+        row.note = Some(MOVING.to_owned());
+        row
+    };
+    vec![row(0), row(1)]
+}
+
+/// What the cost of moved vertices leaves out.
+const MOVING: &str = "its cost is that of the fragment stage: moving the vertices of the mesh is not in it";
 
 /// Where a line of sight that enters at `from` meets the relief: by steps, and by halving the one that crosses it. True geometry.
 fn traced(from: [f64; 2], offset: [f64; 2]) -> [f64; 2] {
@@ -255,6 +299,11 @@ mod tests {
     #[test]
     fn derived_normals_are_near_the_relief_and_the_old_ones_are_not() {
         let rows = rows(Effort::Quick);
+        let on_ball = |method: &str| {
+            let is_own = |row: &&Row| row.method == method && row.domain.starts_with("rings");
+            rows.iter().find(is_own).and_then(|row| row.error_rms).expect("a row")
+        };
+        assert!(on_ball("derived") < 1.0 && on_ball("report") > 10.0, "{} {}", on_ball("derived"), on_ball("report"));
         let rms = |term: &str, method: &str| {
             rows.iter()
                 .find(|row| row.term == term && row.method == method)

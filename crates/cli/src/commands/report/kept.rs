@@ -7,10 +7,10 @@ use std::process::{Child, Command, ExitStatus};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use halfvector_report::missing::LeftOut;
-use halfvector_report::{Effort, PARTS, Report, Row, SoFar, page, write};
+use halfvector_report::{Effort, PARTS, Part, Report, Row, SoFar, page, write};
 
 use crate::failure::Failure;
-use crate::output::{note, write_file};
+use crate::output::{check_place, note, write_file};
 
 /// What a shell says of a command that an interrupt ended: 128 and the signal's number.
 pub(super) const INTERRUPTED: i32 = 130;
@@ -50,6 +50,24 @@ impl Kept {
 
     fn locked(&self) -> MutexGuard<'_, Report> {
         self.report.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Tries whether every file of the report can be written, before anything is measured: a file that is there is replaced by
+    /// itself.
+    pub(super) fn try_out(&self, parts: &[&Part]) -> Result<(), Failure> {
+        let files = ["report.json", "index.html"].map(|name| self.folder.join(name));
+        for path in files.into_iter().chain(parts.iter().map(|part| self.csv(part.name))) {
+            check_place(&path)?;
+            match std::fs::read(&path) {
+                Ok(known) => write_file(&path, &known)?,
+                Err(_) => {
+                    write_file(&path, b"")?;
+                    // Where it stays it is written over soon.
+                    let _ = std::fs::remove_file(&path);
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Writes the rows of a part that are finished so far, and what it left out, where there is more of either. What cannot be written
