@@ -138,7 +138,7 @@ impl Editor {
             ui.separator();
             ui.horizontal(|ui| {
                 ui.vertical(|ui| {
-                    ui.set_width(280.0);
+                    ui.set_width(300.0);
                     ui.strong(&lost.record.name);
                     let file = lost.record.file.as_ref().map(|file| file.display().to_string());
                     ui.add(
@@ -157,12 +157,14 @@ impl Editor {
                         .on_hover_text(rest);
                     }
                 });
-                if ui.button("Recover").on_hover_text("Open it here, not saved yet").clicked() {
-                    answer = Some(Answer::Recover(place));
-                }
-                if ui.button("Discard").on_hover_text("It is lost for good").clicked() {
-                    answer = Some(Answer::Forget(place));
-                }
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    if ui.button("Discard").on_hover_text("It is lost for good").clicked() {
+                        answer = Some(Answer::Forget(place));
+                    }
+                    if ui.button("Recover").on_hover_text("Open it here, not saved yet").clicked() {
+                        answer = Some(Answer::Recover(place));
+                    }
+                });
             });
         }
         answer.or(buttons(ui, &[("Later", "The File menu offers it again, and the next start", Answer::Later)]))

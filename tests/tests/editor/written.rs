@@ -83,7 +83,11 @@ fn value(window: &Window, node: &str, input: &str) -> Option<Value> {
 /// Writes over what stands in the field that has the focus, and presses a key.
 fn over(window: &mut Window, text: &str, done: egui::Key) {
     key(window, egui::Modifiers::COMMAND, egui::Key::A);
-    write(window, text);
+    if text.is_empty() {
+        key(window, NONE, egui::Key::Backspace);
+    } else {
+        write(window, text);
+    }
     key(window, NONE, done);
     window.run_steps(2);
 }
