@@ -2,20 +2,32 @@
 //! are left out of its text, and with them all that is computed, bound and filled in for their sake. What is named and has no effect
 //! all the same is found in `passes/idle.rs`.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use halfvector_shaders::{Item, ItemKind, Token, TokenKind, slice, tokens};
+
+/// Most turns that take something away; a text that needs more keeps the rest.
+const MAX_TURNS: usize = 64;
 
 /// The source without what it never reads, and the places of the parameters that `function` has lost. A local of a parameter's name counts
 /// as reading it.
 pub(crate) fn without_unread(source: &str, function: &str) -> (String, Vec<usize>) {
     let mut text = source.to_owned();
     let before = parameters(&text, function);
-    // Each turn makes the text shorter, and what it takes away may have been the last to read something else.
-    while let Some(ranges) = unused_value(&text).or_else(|| unread_parameter(&text, function)) {
-        for range in ranges.into_iter().rev() {
-            text.replace_range(range, "");
+    for _ in 0..MAX_TURNS {
+        let unused = unused_values(&text);
+        // What a turn takes away may have been the last to read something else.
+        let ranges = if unused.is_empty() { unread_parameters(&text, function) } else { Some(unused) };
+        let Some(ranges) = ranges else { break };
+        let mut left = String::with_capacity(text.len());
+        let mut at = 0;
+        for range in ranges {
+            left.push_str(&text[at..range.start]);
+            at = range.end;
         }
+        left.push_str(&text[at..]);
+        text = left;
     }
     let left = parameters(&text, function);
     let unread = (0..before.len()).filter(|&place| !left.contains(&before[place])).collect();
@@ -77,31 +89,49 @@ fn is_template(text: &str, code: &[Token], at: usize) -> bool {
     ["vec", "mat", "array", "texture_", "bitcast"].iter().any(|head| before.starts_with(head))
 }
 
-/// How often a name stands among tokens, other than as a member.
-fn count(text: &str, code: &[Token], name: &str) -> usize {
-    let is = |at: usize| {
+/// How often each name stands among tokens, other than as a member.
+fn counts<'t>(text: &'t str, code: &[Token]) -> HashMap<&'t str, usize> {
+    let mut counts = HashMap::new();
+    for (at, token) in code.iter().enumerate() {
         let is_member = at > 0 && code[at - 1].text(text) == ".";
-        code[at].kind == TokenKind::Identifier && code[at].text(text) == name && !is_member
-    };
-    (0..code.len()).filter(|&at| is(at)).count()
+        if token.kind == TokenKind::Identifier && !is_member {
+            *counts.entry(token.text(text)).or_default() += 1;
+        }
+    }
+    counts
 }
 
-/// A `let` or a `const` of a function that nothing names, or `_ = ...;`.
-fn unused_value(text: &str) -> Option<Vec<Range<usize>>> {
-    functions(text).iter().find_map(|item| {
-        let code = code(text, item);
+/// Each `let` and `const` of a function that nothing names, and each `_ = ...;`, in order.
+fn unused_values(text: &str) -> Vec<Range<usize>> {
+    let mut unused = Vec::new();
+    for item in functions(text) {
+        let code = code(text, &item);
+        let mut counts = counts(text, &code);
         let word = |at: usize| code.get(at).map_or("", |token| token.text(text));
-        (1..code.len()).find_map(|at| {
+        let mut end = code.len();
+        // From the end on: what one of them names is used once less.
+        for at in (1..code.len()).rev() {
+            if word(at) == ";" {
+                end = at;
+            }
             let begins = matches!(word(at - 1), ";" | "{" | "}");
             let is_unused = match word(at) {
-                "let" | "const" => count(text, &code, word(at + 1)) == 1,
+                "let" | "const" => counts.get(word(at + 1)) == Some(&1),
                 "_" => word(at + 1) == "=",
                 _ => false,
             };
-            let end = (at..code.len()).find(|&end| word(end) == ";")?;
-            (begins && is_unused).then(|| vec![line(text, code[at].start..code[end].end)])
-        })
-    })
+            if begins && is_unused && end < code.len() {
+                for (name, count) in self::counts(text, &code[at..end]) {
+                    if let Some(all) = counts.get_mut(name) {
+                        *all -= count;
+                    }
+                }
+                unused.push(line(text, code[at].start..code[end].end));
+            }
+        }
+    }
+    unused.sort_by_key(|range| range.start);
+    unused
 }
 
 /// A range with the line break in front of it, where it fills a line.
@@ -111,20 +141,23 @@ fn line(text: &str, range: Range<usize>) -> Range<usize> {
     if is_alone { front.len() - 1..range.end } else { range }
 }
 
-/// A parameter that its function does not name after its head; of a helper with the arguments of all calls.
-fn unread_parameter(text: &str, main: &str) -> Option<Vec<Range<usize>>> {
+/// The parameters of one function that it does not name after its head; of a helper with the arguments of all calls. In order.
+fn unread_parameters(text: &str, main: &str) -> Option<Vec<Range<usize>>> {
     let items = slice(text).unwrap_or_default();
     functions(text).iter().find_map(|item| {
         let own = code(text, item);
         let open = opening(text, &own, 0);
         let parameters = parts(text, &own, open)?;
         let close = parameters.last().map_or(open, |last| last.end);
-        let place = parameters.iter().position(|part| count(text, &own[close..], own[part.start].text(text)) == 0)?;
-        let mut ranges = vec![with_comma(text, &own, &parameters, place)];
-        if item.name == main {
-            return Some(ranges);
+        let read = counts(text, &own[close..]);
+        let is_read = |part: &Range<usize>| read.contains_key(own[part.start].text(text));
+        let places: Vec<usize> = (0..parameters.len()).filter(|&place| !is_read(&parameters[place])).collect();
+        if places.is_empty() {
+            return None;
         }
-        for caller in &items {
+        let mut ranges = without_parts(text, &own, &parameters, &places);
+        let callers = items.iter().filter(|caller| item.name != main && caller.dependencies.contains(&item.name));
+        for caller in callers {
             let code = code(text, caller);
             for at in 1..code.len() {
                 let is_call = code[at].text(text) == item.name
@@ -135,28 +168,41 @@ fn unread_parameter(text: &str, main: &str) -> Option<Vec<Range<usize>>> {
                     if arguments.len() != parameters.len() {
                         return None;
                     }
-                    ranges.push(with_comma(text, &code, &arguments, place));
+                    ranges.extend(without_parts(text, &code, &arguments, &places));
                 }
             }
         }
         ranges.sort_by_key(|range| range.start);
-        // A call among the arguments of another one goes with it.
+        // A call among the arguments of another one of the same function stays, and both with it.
         let is_apart = ranges.windows(2).all(|pair| pair[0].end <= pair[1].start);
         is_apart.then_some(ranges)
     })
 }
 
-/// The bytes of a part with the comma that goes with it.
-fn with_comma(text: &str, code: &[Token], parts: &[Range<usize>], place: usize) -> Range<usize> {
-    let part = &parts[place];
-    let (start, end) = (code[part.start].start, code[part.end - 1].end);
-    match (parts.get(place + 1), place.checked_sub(1)) {
-        (Some(next), _) => start..code[next.start].start,
-        (None, Some(before)) => code[parts[before].end - 1].end..end,
-        // A comma behind the last one.
-        (None, None) if code[part.end].text(text) == "," => start..code[part.end].end,
-        (None, None) => start..end,
+/// The bytes of some parts with the commas that go with them, in order.
+fn without_parts(text: &str, code: &[Token], parts: &[Range<usize>], places: &[usize]) -> Vec<Range<usize>> {
+    let is_left = |place: usize| !places.contains(&place);
+    let mut ranges = Vec::new();
+    let mut place = 0;
+    while place < parts.len() {
+        if is_left(place) {
+            place += 1;
+            continue;
+        }
+        // A row of them, up to the next that stays; where none does, from behind the one before.
+        let end = (place..parts.len()).find(|&next| is_left(next)).unwrap_or(parts.len());
+        let start = code[parts[place].start].start;
+        let last = &parts[end - 1];
+        ranges.push(match (parts.get(end), place.checked_sub(1)) {
+            (Some(next), _) => start..code[next.start].start,
+            (None, Some(before)) => code[parts[before].end - 1].end..code[last.end - 1].end,
+            // A comma behind the last one.
+            (None, None) if code[last.end].text(text) == "," => start..code[last.end].end,
+            (None, None) => start..code[last.end - 1].end,
+        });
+        place = end;
     }
+    ranges
 }
 
 #[cfg(test)]
@@ -201,5 +247,19 @@ mod tests {
             let (text, unread) = left(same);
             assert!(unread.is_empty(), "{text}");
         }
+    }
+
+    /// However much is unread, it takes no time worth speaking of.
+    #[test]
+    fn a_hostile_text_ends() {
+        let chain: String = (1..3000).map(|i| format!("let a{i} = a{};\n", i - 1)).collect();
+        let (text, unread) = without_unread(&format!("fn f(a0: f32, b: f32) -> f32 {{\n{chain}return b;\n}}"), "f");
+        assert_eq!((text.as_str(), unread), ("fn f(b: f32) -> f32 {\nreturn b;\n}", vec![0]));
+        let helpers: String = (0..1000).map(|i| format!("fn g{i}(a: f32, b: f32) -> f32 {{ return b; }}\n")).collect();
+        let calls: String = (0..1000).map(|i| format!("s += g{i}(x, s);\n")).collect();
+        let start = std::time::Instant::now();
+        without_unread(&format!("{helpers}fn f(x: f32) -> f32 {{\nvar s = 0.0;\n{calls}return s;\n}}"), "f");
+        // Far below on a quiet machine.
+        assert!(start.elapsed() < std::time::Duration::from_secs(20), "{:?}", start.elapsed());
     }
 }

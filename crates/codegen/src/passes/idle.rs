@@ -12,6 +12,9 @@ use naga::{Block, Expression, Function, Handle, Literal, LocalVariable, MathFunc
 use crate::ir::{Entry, Expr, Id, Literal as Number, Stage, Ty};
 use crate::link::Index;
 
+/// Most turns over a function.
+const MAX_TURNS: usize = 32;
+
 /// Numbers of arguments.
 type Arguments = BTreeSet<usize>;
 
@@ -124,8 +127,14 @@ impl<'m> Reading<'m> {
                 self.variables[handle.index()] = self.values[init.index()].clone();
             }
         }
-        // Sets only grow, so it ends.
+        // Sets only grow, so it would end; of a text that winds itself up for long all is said to have an effect.
+        let mut turns = 0;
         while std::mem::take(&mut self.has_changed) {
+            turns += 1;
+            if turns > MAX_TURNS {
+                let all: Arguments = (0..self.function.arguments.len()).collect();
+                return Effects { members: vec![all; self.returned.len()] };
+            }
             for (handle, _) in self.function.expressions.iter() {
                 let value = self.of(handle);
                 grow(&mut self.values[handle.index()], &value, &mut self.has_changed);
