@@ -14,6 +14,7 @@ use halfvector_shaders::{Item, ItemKind, SliceError, TokenKind, emit, generic_ty
 use crate::blend;
 use crate::cost::{Instructions, of_function};
 use crate::passes::eval;
+use crate::passes::idle::{Effects, effects};
 use crate::passes::reduce::{Reduced, reduce};
 use crate::unread::without_unread;
 
@@ -92,6 +93,11 @@ pub(crate) struct Compiled {
 impl Compiled {
     pub(crate) fn evaluate(&self, arguments: &[eval::Number]) -> Option<eval::Value> {
         self.callable.as_ref()?.call(arguments)
+    }
+
+    /// What of its arguments has an effect on what it gives.
+    pub(crate) fn effects(&self) -> Effects {
+        effects(&self.module, self.function)
     }
 
     /// What it gives where some of its arguments are known.
@@ -234,6 +240,11 @@ impl Index {
     /// Places of the arguments that a function is not given, though its node has inputs for them: it does not read them.
     pub(crate) fn unread(&self, function: &str) -> &[usize] {
         self.unread.get(function).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether a function is one that the document brings along.
+    pub(crate) fn is_of_document(&self, function: &str) -> bool {
+        self.unread.contains_key(function)
     }
 
     /// A function by its name in the library.

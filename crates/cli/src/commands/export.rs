@@ -221,6 +221,11 @@ fn explanation(shader: &Shader, chosen: Option<&Chosen>) -> serde_json::Value {
             json!({ "node": node.node, "label": node.label, "why": node.why, "instructions": node.instructions })
         })
         .collect();
+    let heights: Vec<_> = shader
+        .height_reads
+        .iter()
+        .map(|read| json!({ "node": read.node, "label": read.label, "why": read.why, "instructions": read.instructions }))
+        .collect();
     let saved: u64 = shader.dropped_nodes.iter().filter_map(|node| node.instructions).map(u64::from).sum();
     let methods: serde_json::Map<_, _> =
         shader.methods.iter().map(|(term, method)| ((*term).to_owned(), json!(method))).collect();
@@ -229,6 +234,7 @@ fn explanation(shader: &Shader, chosen: Option<&Chosen>) -> serde_json::Value {
         "instructions_are": "what each thing alone would add to both stages, and what each node's function does, estimated on the text as `check --cost` does",
         "dropped_nodes": nodes,
         "dropped_nodes_instructions": saved,
+        "height_reads": heights,
         "methods": methods,
     });
     if let Ok(cost) = halfvector_codegen::cost(shader) {

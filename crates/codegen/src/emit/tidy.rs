@@ -5,12 +5,14 @@ use std::ops::Range;
 
 use halfvector_shaders::{Token, TokenKind, tokens};
 
-/// The line without `x * 1.0`, `1.0 * x`, `x / 1.0`, `x + 0.0`, `x - 0.0` and `0.0 + x`, and without brackets that have become idle.
+/// The line without `x * 1.0`, `1.0 * x`, `x / 1.0`, `x + 0.0`, `x - 0.0`, `0.0 + x` and `mix` at 0 and 1, and without brackets that have become idle.
 pub(crate) fn without_identities(line: &str) -> String {
     let mut line = line.to_owned();
     let mut has_changed = false;
     // Each turn makes the line shorter.
-    while let Some(ranges) = idle(&line).or_else(|| if has_changed { idle_brackets(&line) } else { None }) {
+    while let Some(ranges) =
+        idle(&line).or_else(|| end_of_mix(&line)).or_else(|| if has_changed { idle_brackets(&line) } else { None })
+    {
         for range in ranges.into_iter().rev() {
             line.replace_range(range, "");
         }
@@ -51,6 +53,37 @@ fn idle(line: &str) -> Option<Vec<Range<usize>>> {
             _ => None,
         }
         .map(|range| vec![range])
+    })
+}
+
+/// What of a `mix` at 0 or 1 is not the side that it is.
+fn end_of_mix(line: &str) -> Option<Vec<Range<usize>>> {
+    if !line.contains("mix(") {
+        return None;
+    }
+    let code = code(line);
+    let word = |at: usize| code.get(at).map_or("", |token| token.text(line));
+    (0..code.len()).filter(|&at| word(at) == "mix" && word(at + 1) == "(").find_map(|at| {
+        let (mut depth, mut commas) = (0_usize, Vec::new());
+        let close = (at + 1..code.len()).find(|&at| {
+            match word(at) {
+                "(" => depth += 1,
+                ")" => depth -= 1,
+                "," if depth == 1 => commas.push(at),
+                _ => {}
+            }
+            depth == 0
+        })?;
+        let &[first, second] = commas.as_slice() else { return None };
+        let weight = if second + 2 == close { word(second + 1) } else { "" };
+        let rest = match weight {
+            "0.0" => code[first].start..code[close].start,
+            "1.0" => code[at + 2].start..code[first + 1].start,
+            _ => return None,
+        };
+        let name = code[at].start..code[at].end;
+        let weight = code[second].start..code[close].start;
+        Some(if rest.end > weight.start { vec![name, rest] } else { vec![name, rest, weight] })
     })
 }
 
@@ -102,6 +135,8 @@ mod tests {
             ("let a = b - vec3f(c) * 1.0 * d;", "let a = b - vec3f(c) * d;"),
             ("let a = b / 1.0 * c;", "let a = b * c;"),
             ("return 0.0 + f(a) - 0.0;", "return f(a);"),
+            ("let a = mix(b, b + vec3f(1.0, 2.0, 3.0), 1.0);", "let a = b + vec3f(1.0, 2.0, 3.0);"),
+            ("let a = mix(b, f(c, d), 0.0) * mix(b, c + d, 1.0);", "let a = b * (c + d);"),
         ] {
             assert_eq!(without_identities(from), to);
         }
@@ -115,6 +150,8 @@ mod tests {
             "let a = (b) * c;",
             "// a * 1.0",
             "let a = b % 1.0 * c;",
+            "let a = mix(b, c, vec3f(1.0));",
+            "let a = mix(b, c, 1.0 - d);",
         ] {
             assert_eq!(without_identities(same), same);
         }

@@ -15,6 +15,7 @@ use crate::ir::{Arena, Entry, Expr, Id, Input, NodeInfo, Program, Stage, Table, 
 use crate::link::Index;
 use crate::passes::drop_unused::drop_unread;
 use crate::passes::fold;
+use crate::passes::idle::drop_idle;
 use crate::passes::mixed;
 use crate::passes::specialise::{NORMALS, SOCKETS};
 use crate::passes::types::{Source, Types};
@@ -320,6 +321,7 @@ pub(crate) fn lower<'a>(
         vertex.roots.insert("height", height);
     }
     drop_unread(&mut vertex, index);
+    drop_idle(&mut vertex, index);
     // Faults are found again, and told, when the whole program is folded.
     fold::fold_stage(&mut vertex, index, &mut Vec::new());
     let varies = vertex.root("height").is_some_and(|id| {
@@ -351,6 +353,7 @@ pub(crate) fn lower<'a>(
         }
     }
     drop_unread(&mut fragment, index);
+    drop_idle(&mut fragment, index);
     let Table { inputs, images, .. } = table;
     Ok(Program { nodes: types.nodes.clone(), inputs, images, fragment, vertex, derived_normal })
 }
@@ -373,6 +376,7 @@ pub(crate) fn lower_material<'a>(
     let surface = lowering.call(&mut stage.arena, &mut table, types.surface, false)?;
     stage.roots.insert("surface", surface);
     drop_unread(&mut stage, index);
+    drop_idle(&mut stage, index);
     let Table { inputs, images, .. } = table;
     let nodes = types.nodes.clone();
     Ok(Program { nodes, inputs, images, fragment: stage, ..Program::default() })
@@ -392,6 +396,7 @@ pub(crate) fn lower_height<'a>(
     let Some(height) = lowering.surface(&mut made.arena, &mut table, "height")? else { return Ok(None) };
     made.roots.insert("height", height);
     drop_unread(&mut made, index);
+    drop_idle(&mut made, index);
     let Table { inputs, images, .. } = table;
     let alone = Program { nodes: types.nodes.clone(), inputs, images, ..Program::default() };
     Ok(Some(match stage {
