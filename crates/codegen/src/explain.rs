@@ -12,7 +12,7 @@ use halfvector_graph::needs::{EnvironmentNeeds, Needs};
 use crate::fate::dropped_nodes;
 use crate::passes::plan::Keep;
 use crate::pipeline::{Material, Sound};
-use crate::{CodegenError, DroppedNode, Fold, Shader, cost, heights};
+use crate::{CodegenError, DroppedNode, Fold, Shader, cost, slopes};
 
 /// A paragraph of the comment at the top of a shader.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,8 +46,8 @@ pub fn explained(
     let dropped_nodes = dropped_nodes(&material.types, &draft.fates, &draft.plan, material.index);
     let mut remarks = remarks.to_vec();
     remarks.extend(of_nodes(&dropped_nodes));
-    let height_reads = heights::heights(&draft.program, material.index);
-    remarks.extend(heights::remark(&height_reads));
+    let slope_reads = slopes::slopes(&draft.program, material.index);
+    remarks.extend(slopes::remark(&slope_reads));
     let mut shader = draft.shader(&material, needs, &remarks)?;
     if shader.wgsl.len() <= MAX_COUNTED
         && material.types.nodes.len() <= MAX_COUNTED_NODES
@@ -59,7 +59,7 @@ pub fn explained(
         }
         shader = draft.shader(&material, needs, &remarks)?;
     }
-    Ok(Shader { dropped_nodes, height_reads, ..shader })
+    Ok(Shader { dropped_nodes, slope_reads, ..shader })
 }
 
 /// What is said of nodes in the comment: it names none, since what is left out leaves no trace.

@@ -9,7 +9,6 @@ mod emit;
 mod error;
 mod explain;
 mod fate;
-mod heights;
 mod ir;
 mod layout;
 mod line_map;
@@ -18,6 +17,7 @@ mod names;
 mod passes;
 mod pipeline;
 pub mod reflection;
+mod slopes;
 pub mod target;
 pub mod uniforms;
 mod unread;
@@ -64,7 +64,7 @@ pub struct Shader {
     /// The nodes that reach the surface and are not in it, in order of id; empty where that was not asked for ([`explained()`] does).
     pub dropped_nodes: Vec<DroppedNode>,
     /// The nodes whose pictures are read by arithmetic because they feed the height, in order of id; empty where that was not asked for.
-    pub height_reads: Vec<HeightRead>,
+    pub slope_reads: Vec<SlopeRead>,
     /// The terms of shading that this shader has a part of, each with its method, in the order of the list of terms.
     pub methods: Vec<(&'static str, &'static str)>,
 }
@@ -91,9 +91,9 @@ pub struct Dropped {
     pub(crate) kept_by: Keep,
 }
 
-/// A node whose pictures are blended by arithmetic where they feed the height; other sockets read them by the sampler.
+/// A node whose pictures are blended by arithmetic where their slope is seen; other sockets read them by the sampler.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct HeightRead {
+pub struct SlopeRead {
     /// The node; in a group its path.
     pub node: NodeId,
     /// Its label; in a group after the group's.

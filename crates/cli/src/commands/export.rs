@@ -221,8 +221,8 @@ fn explanation(shader: &Shader, chosen: Option<&Chosen>) -> serde_json::Value {
             json!({ "node": node.node, "label": node.label, "why": node.why, "instructions": node.instructions })
         })
         .collect();
-    let heights: Vec<_> = shader
-        .height_reads
+    let slopes: Vec<_> = shader
+        .slope_reads
         .iter()
         .map(|read| json!({ "node": read.node, "label": read.label, "why": read.why, "instructions": read.instructions }))
         .collect();
@@ -234,7 +234,7 @@ fn explanation(shader: &Shader, chosen: Option<&Chosen>) -> serde_json::Value {
         "instructions_are": "what each thing alone would add to both stages, and what each node's function does, estimated on the text as `check --cost` does",
         "dropped_nodes": nodes,
         "dropped_nodes_instructions": saved,
-        "height_reads": heights,
+        "slope_reads": slopes,
         "methods": methods,
     });
     if let Ok(cost) = halfvector_codegen::cost(shader) {

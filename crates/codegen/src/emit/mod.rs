@@ -60,8 +60,8 @@ pub(crate) fn shader(
     library(index, &[&vertex_uses, &fragment_uses], &needs.methods, &mut text);
     let methods = header::methods(&plan, needs);
     let Text { text: wgsl, segments, .. } = text;
-    let (dropped, dropped_nodes, height_reads) = (plan.dropped, Vec::new(), Vec::new());
-    Ok(Shader { wgsl, reflection, segments, dropped, dropped_nodes, height_reads, methods })
+    let (dropped, dropped_nodes, slope_reads) = (plan.dropped, Vec::new(), Vec::new());
+    Ok(Shader { wgsl, reflection, segments, dropped, dropped_nodes, slope_reads, methods })
 }
 
 /// The material alone, or a part of it: one function of the context.
@@ -99,8 +99,8 @@ pub(crate) fn material(
     text.append(&body);
     library(index, &[&uses], methods, &mut text);
     let Text { text: wgsl, segments, .. } = text;
-    let (dropped, dropped_nodes, height_reads, methods) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    Ok(Shader { wgsl, reflection, segments, dropped, dropped_nodes, height_reads, methods })
+    let (dropped, dropped_nodes, slope_reads, methods) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    Ok(Shader { wgsl, reflection, segments, dropped, dropped_nodes, slope_reads, methods })
 }
 
 /// The library's items that the stages reach, by file.

@@ -189,25 +189,25 @@ fn remarks_stand_in_the_comment() {
     }
 }
 
-/// A picture that feeds the height is read by arithmetic: which, why and at what price is said.
+/// A picture whose slope is seen is read by arithmetic: which, why and at what price is said.
 #[test]
-fn heights_that_are_read_by_arithmetic_are_told() {
+fn slopes_that_are_read_by_arithmetic_are_told() {
     let document = material(
         "",
         r#""relief": {"node": "textures/image", "label": "Relief", "values": {"image": {"file": "relief.png", "color_space": "linear"}}}"#,
         r#"{"from": "relief.r", "to": "surface.height"}, {"from": "relief.color", "to": "surface.base_color"}"#,
     );
     let shader = explained(&document, Library::standard(), &sun(), &[]).unwrap_or_else(|e| panic!("{e}"));
-    let [read] = shader.height_reads.as_slice() else { panic!("{:?}", shader.height_reads) };
+    let [read] = shader.slope_reads.as_slice() else { panic!("{:?}", shader.slope_reads) };
     assert_eq!((read.node.as_str(), read.label.as_str()), ("relief", "Relief"));
     assert!(read.why.contains("8 bits") && read.instructions > Some(20), "{read:?}");
     let said = shader.header().replace("\n//    ", "");
-    assert!(said.contains("heights: where it feeds the height, `Relief` is blended"), "{said}");
+    assert!(said.contains("slopes: where its slope is seen, `Relief` is blended"), "{said}");
     let plain = super::material(
         "",
         r#""relief": {"node": "textures/image", "values": {"image": {"file": "relief.png", "color_space": "linear"}}}"#,
         r#"{"from": "relief.color", "to": "surface.base_color"}"#,
     );
     let shader = explained(&plain, Library::standard(), &sun(), &[]).unwrap_or_else(|e| panic!("{e}"));
-    assert!(shader.height_reads.is_empty() && !shader.header().contains("heights:"), "{}", shader.header());
+    assert!(shader.slope_reads.is_empty() && !shader.header().contains("slopes:"), "{}", shader.header());
 }

@@ -8,7 +8,7 @@ use super::{document, small};
 use crate::check::{Severity, check};
 use crate::file::{from_json, group_from_json, group_to_json};
 use crate::library::custom::{CodeError, MAX_BYTES, read_function};
-use crate::operation::{Pick, collapse, copy, export_group, import_group, paste};
+use crate::operation::{Pick, collapse, copy, export_group, group_as_copied, paste};
 use crate::value::{SocketType, Type};
 
 /// A function `name(x: f32) -> f32` with this body, and items beside it.
@@ -326,7 +326,8 @@ fn functions_go_along() {
     assert_eq!(file.functions.len(), 1);
     assert_eq!(group_from_json(&group_to_json(&file)).expect("a file"), file);
     let mut third = document(&[], &[]);
-    let (edit, _) = import_group(&third, &file).expect("an import");
+    let copied = group_as_copied(file).expect("whole");
+    let edit = paste(&third, small(), None, &copied, [0.0; 2]).expect("an edit").edit;
     crate::edit::apply(&mut third, &edit).expect("applied");
     assert_eq!((&third.groups, &third.functions), (&d.groups, &d.functions));
 }

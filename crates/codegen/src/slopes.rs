@@ -1,36 +1,33 @@
-//! Pictures that are read by arithmetic because they feed the height: which, why, and what it costs.
+//! Pictures that are read by arithmetic because their slope is seen: which, why, and what it costs.
 
 use std::collections::BTreeMap;
 
-use crate::HeightRead;
+use crate::SlopeRead;
 use crate::cost::Instructions;
 use crate::ir::{Expr, Program};
 use crate::link::Index;
 
 /// Why a sampler does not do.
-const WHY: &str = "devices blend texels by weights of 8 bits, which show as steps in the slope of a height";
+const WHY: &str = "devices blend texels by weights of 8 bits, which show as steps in a slope";
 
-/// The nodes of a program that read pictures for the height, in order of id.
-pub(crate) fn heights(program: &Program<'_>, index: &Index) -> Vec<HeightRead> {
+/// The nodes of a program that read pictures for a slope, in order of id.
+pub(crate) fn slopes(program: &Program<'_>, index: &Index) -> Vec<SlopeRead> {
     let mut reads = BTreeMap::new();
     for stage in [&program.fragment, &program.vertex] {
         for entry in &stage.arena.exprs {
             let (Expr::Call { function, generic, .. }, Some(node)) = (&entry.expr, entry.node) else { continue };
             let info = &program.nodes[node];
-            let is_read = |[fragment, vertex]: &[halfvector_graph::node_def::Function; 2]| {
-                fragment.name == *function || vertex.name == *function
-            };
-            if !info.def.height_functions.as_ref().is_some_and(is_read) {
+            let def = info.def;
+            let plain = [Some(&def.function), def.vertex_function.as_ref()].into_iter().flatten();
+            let Some(plain) =
+                plain.map(|plain| plain.name.as_str()).find(|name| index.blended(name) == Some(*function))
+            else {
                 continue;
-            }
+            };
             let cost =
                 |name: &str| -> Option<Instructions> { Some(index.compiled(index.instance(name, *generic)?)?.cost) };
-            let plain = info.def.vertex_function.as_ref().map_or(&info.def.function, |plain| {
-                if std::ptr::eq(stage, &program.vertex) { plain } else { &info.def.function }
-            });
-            let more =
-                cost(function).zip(cost(&plain.name)).map(|(own, plain)| own.total().saturating_sub(plain.total()));
-            let read = reads.entry(info.id).or_insert_with(|| HeightRead {
+            let more = cost(function).zip(cost(plain)).map(|(own, plain)| own.total().saturating_sub(plain.total()));
+            let read = reads.entry(info.id).or_insert_with(|| SlopeRead {
                 node: info.id.clone(),
                 label: info.label.to_owned(),
                 why: WHY.to_owned(),
@@ -43,7 +40,7 @@ pub(crate) fn heights(program: &Program<'_>, index: &Index) -> Vec<HeightRead> {
 }
 
 /// What the comment says of them.
-pub(crate) fn remark(reads: &[HeightRead]) -> Option<crate::Remark> {
+pub(crate) fn remark(reads: &[SlopeRead]) -> Option<crate::Remark> {
     /// So many are named.
     const MAX_NAMED: usize = 4;
     if reads.is_empty() {
@@ -56,6 +53,6 @@ pub(crate) fn remark(reads: &[HeightRead]) -> Option<crate::Remark> {
     let more: Option<u32> = reads.iter().map(|read| read.instructions).sum();
     let more = more.map_or_else(String::new, |more| format!(" ({more} instructions more than by the sampler)"));
     let text =
-        format!("where it feeds the height, {} is blended from texels by arithmetic: {WHY}{more}", names.join(", "));
-    Some(crate::Remark { lead: "heights", text })
+        format!("where its slope is seen, {} is blended from texels by arithmetic: {WHY}{more}", names.join(", "));
+    Some(crate::Remark { lead: "slopes", text })
 }
