@@ -205,9 +205,7 @@ impl Session {
 
     /// Whether some node names a picture.
     pub(crate) fn names_pictures(&self) -> bool {
-        let mut values =
-            graphs(&self.document).flat_map(|graph| graph.nodes.values()).flat_map(|node| node.values.values());
-        values.any(|value| matches!(value, Value::Image(_)))
+        names_pictures(&self.document)
     }
 
     /// The file of the document, if it has one.
@@ -464,6 +462,12 @@ pub(crate) fn with_images_moved(document: &Document, from: &Path, to: &Path) -> 
         }
     }
     Some(moved)
+}
+
+/// Whether some node of a document names a picture.
+pub(crate) fn names_pictures(document: &Document) -> bool {
+    let mut values = graphs(document).flat_map(|graph| graph.nodes.values()).flat_map(|node| node.values.values());
+    values.any(|value| matches!(value, Value::Image(_)))
 }
 
 /// All graphs of a document: its own and those of its groups.

@@ -131,8 +131,12 @@ pub(crate) fn canvas(visuals: &egui::Visuals) -> CanvasColors {
 
 /// Sets both themes of the window.
 pub(crate) fn install(context: &egui::Context) {
-    // As long as other programs wait for the second click.
-    context.options_mut(|options| options.input_options.max_double_click_delay = 0.5);
+    context.options_mut(|options| {
+        // As long as other programs wait for the second click.
+        options.input_options.max_double_click_delay = 0.5;
+        // On a busy machine a frame may lie between press and release that takes a second.
+        options.input_options.max_click_duration = 1.5;
+    });
     context.style_mut_of(egui::Theme::Dark, |style| {
         style.visuals.panel_fill = Color32::from_rgb(0x1d, 0x1f, 0x23);
         style.visuals.window_fill = Color32::from_rgb(0x24, 0x27, 0x2c);

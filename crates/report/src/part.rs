@@ -108,11 +108,11 @@ impl Part {
     /// About how long it takes on two cores [s]; parts that are not named here are quick.
     pub fn seconds(&self, effort: Effort) -> f64 {
         let [quick, full] = match self.name {
-            "shaders" => [30.0, 60.0],
+            "shaders" => [22.0, 60.0],
             "ibl" => [15.0, 60.0],
-            "lobes" => [8.0, 50.0],
+            "lobes" => [5.0, 35.0],
             "specular_aa" => [1.0, 10.0],
-            "pictures" => [45.0, 400.0],
+            "pictures" => [30.0, 350.0],
             "peers" => [5.0, 110.0],
             _ => [1.0, 6.0],
         };

@@ -87,7 +87,8 @@ fn closing(open: char) -> char {
 fn missing_before(open: &Open, word: &str) -> Option<char> {
     let is_out_of_place = match word {
         ";" => !open.is_header,
-        "{" | "}" | "let" | "return" | "if" | "else" | "for" | "switch" | "fn" => true,
+        "let" => !open.is_header,
+        "{" | "}" | "return" | "if" | "else" | "for" | "switch" | "fn" => true,
         ")" | "]" => closing(open.sign).to_string() != word,
         _ => false,
     };

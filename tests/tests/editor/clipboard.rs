@@ -73,6 +73,7 @@ fn what_is_cut_and_pasted_is_offered_as_before() {
     let mut window = offering();
     let whole = document(&window).parameters.clone();
     let cut = take(&mut window, egui::Event::Cut);
+    assert!(!cut.contains("copied_from"), "without pictures nobody needs to know whose folder it was");
     assert_eq!(parameters(&window), ["metallic surface.metallic"]);
     paste(&mut window, &cut);
     assert_eq!(parameters(&window), ["metallic surface.metallic", "how_metallic grain.scale"]);

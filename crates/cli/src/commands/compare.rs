@@ -20,10 +20,10 @@ use crate::reference::roughness;
 /// anything (2021). RMSE and relative error are of the numbers in the files: sRGB codes over 255, or radiance.
 ///
 /// An .exr of --backend reference holds the standard error of each pixel. RMSE and relative error are then what noise does not
-/// explain, 0 where chance may explain all, with a bound that they hardly pass and the figure as it is with noise; the mean
-/// difference has its standard error, and it is said what FLIP such noise alone has: a mean no larger than that shows no
-/// difference. Two of the same --seed have noise in common, and of a single path noise is not known: nothing is taken off
-/// then, and it is said.
+/// explain, 0 where chance may explain all, with a bound that they hardly pass and the figure as it is with noise. (Relative is then
+/// to the mean of the pixels around: a noisy pixel does not tell how bright it is.) The mean difference has its standard error, and it
+/// is said what FLIP such noise alone has: a mean no larger than that shows no difference. Two of the same --seed have noise in
+/// common, and of a single path noise is not known: nothing is taken off then, and it is said.
 ///
 /// FLIP of radiance looks at negative numbers as black, as a display shows them. (NVIDIA's program sends them through its tone
 /// curve, where large ones become white.) Largest, RMSE and relative error count them as they are.
@@ -243,10 +243,12 @@ fn text(flip: &Flip, numbers: &Numbers) -> String {
         |text: String| if numbers.is_black { "none: the reference is black".to_owned() } else { text };
     let figure = |plain: f64, beyond: Option<Beyond>| match beyond {
         None => format!("{plain:.6e}"),
-        Some(Beyond { error, at_most }) if error > 0.0 => {
-            format!("{error:.6e} beyond noise, at most {at_most:.3e}; {plain:.3e} with it")
+        Some(Beyond { error, at_most, with_noise }) if error > 0.0 => {
+            format!("{error:.6e} beyond noise, at most {at_most:.3e}; {with_noise:.3e} with it")
         }
-        Some(Beyond { at_most, .. }) => format!("at most {at_most:.6e}: chance may explain all of {plain:.3e}"),
+        Some(Beyond { at_most, with_noise, .. }) => {
+            format!("at most {at_most:.6e}: chance may explain all of {with_noise:.3e}")
+        }
     };
     let known = numbers.noise.as_ref();
     let of_mean = known.map(|noise| format!(", of noise +-{:.4} %", 100.0 * noise.of_mean)).unwrap_or_default();
@@ -288,10 +290,10 @@ fn json(flip: &Flip, numbers: &Numbers, pixels: &Pixels) -> serde_json::Value {
         "flip": {"kind": flip.kind, "mean": flip.mean, "largest": flip.largest, "of_noise": flip.of_noise},
         "rmse": error(rmse, known.map(|noise| noise.rmse)),
         "rmse_at_most": at_most(|noise| noise.rmse),
-        "rmse_with_noise": known.map(|_| rmse),
+        "rmse_with_noise": known.map(|noise| noise.rmse.with_noise),
         "relative": relative_to_light(error(relative, known.map(|noise| noise.relative))),
         "relative_at_most": at_most(|noise| noise.relative).and_then(relative_to_light),
-        "relative_with_noise": known.map(|_| relative).and_then(relative_to_light),
+        "relative_with_noise": known.map(|noise| noise.relative.with_noise).and_then(relative_to_light),
         "mean_relative": relative_to_light(mean_relative),
         "mean_relative_standard_error": known.map(|noise| noise.of_mean).and_then(relative_to_light),
         "largest": largest,

@@ -14,7 +14,7 @@ use halfvector_shaders::{Item, ItemKind, slice};
 
 use super::complaint::Complaint;
 use syntax::{Argument, Expr, Kind, Reader, Type};
-use types::{Scalar, Ty, remedy};
+use types::{Scalar, Ty, remedy, value_type};
 
 /// Why a text is not followed further: something is wrong at a place, or, without one, it is no WGSL that is known here.
 pub(super) type Stop = Option<Complaint>;
@@ -446,35 +446,6 @@ impl<'t> World<'t> {
             "texture_cube" | "texture_3d" => Ty::Texture(3),
             name => value_type(name, argument(0)),
         }
-    }
-}
-
-/// A scalar, vector or matrix by its name; vectors in angle brackets by what they are of.
-fn value_type(name: &str, inner: Ty) -> Ty {
-    let letter = |letter: u8| match letter {
-        b'f' => Some(Scalar::F32),
-        b'i' => Some(Scalar::I32),
-        b'u' => Some(Scalar::U32),
-        _ => None,
-    };
-    let inner = match inner {
-        Ty::Scalar(scalar) => Some(scalar),
-        _ => None,
-    };
-    let vector = |size: u8, of: Option<Scalar>| of.map_or(Ty::Unknown, |of| Ty::Vector(size - b'0', of));
-    match name.as_bytes() {
-        b"f32" => Ty::F32,
-        b"i32" => Ty::Scalar(Scalar::I32),
-        b"u32" => Ty::Scalar(Scalar::U32),
-        b"bool" => Ty::BOOL,
-        [b'v', b'e', b'c', size @ b'2'..=b'4'] => vector(*size, inner),
-        [b'v', b'e', b'c', size @ b'2'..=b'4', of] => vector(*size, letter(*of)),
-        [b'm', b'a', b't', columns @ b'2'..=b'4', b'x', rows @ b'2'..=b'4', of @ ..]
-            if matches!((of, inner), (b"f", None) | (b"", Some(Scalar::F32))) =>
-        {
-            Ty::Matrix(columns - b'0', rows - b'0')
-        }
-        _ => Ty::Unknown,
     }
 }
 

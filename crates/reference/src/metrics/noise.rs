@@ -113,6 +113,8 @@ pub struct Beyond {
     pub error: f64,
     /// Two standard errors more: it is hardly larger.
     pub at_most: f64,
+    /// The error as it is, with the noise.
+    pub with_noise: f64,
 }
 
 /// What of RMSE and of the relative error (as in [`super::Difference`]) of two pictures the noise of known standard errors does not
@@ -143,6 +145,8 @@ pub fn beyond_noise(
 struct Scatter {
     squares: CleanSquares,
     variance: f64,
+    /// With noise.
+    plain: f64,
 }
 
 impl Scatter {
@@ -152,6 +156,7 @@ impl Scatter {
         let noise: f64 = standard_error.iter().map(|s| s * s).sum();
         let scatter = pixel.square.abs().min(CAUTION_OF_ONE * CAUTION_OF_ONE * noise);
         self.variance += pixel.variance.max(scatter * scatter);
+        self.plain += difference.iter().map(|d| d * d).sum::<f64>();
         self.squares.square += pixel.square;
         self.squares.count += pixel.count;
     }
@@ -159,7 +164,7 @@ impl Scatter {
     fn beyond(&self) -> Beyond {
         let squares = CleanSquares { variance: self.variance, ..self.squares };
         let error = if squares.may_be_chance() { 0.0 } else { squares.rms() };
-        Beyond { error, at_most: squares.bound() }
+        Beyond { error, at_most: squares.bound(), with_noise: squares.root(self.plain) }
     }
 }
 
@@ -221,6 +226,7 @@ mod tests {
                 assert!(beyond[0].at_most >= truth && beyond[0].at_most < plain.rmse, "{samples}: {beyond:?}");
                 if factor == 1.0 {
                     assert_eq!(beyond.map(|beyond| beyond.error), [0.0; 2], "{samples}: {beyond:?} of {plain:?}");
+                    assert!((beyond[0].with_noise / plain.rmse - 1.0).abs() < 1e-12);
                 } else if samples == 16 {
                     assert!((beyond[0].error / truth - 1.0).abs() < 0.3 && beyond[1].error > 0.5, "{beyond:?}");
                 }

@@ -18,7 +18,7 @@ use super::sheet::Sheet;
 use super::view::{GRID, to_grid};
 use super::{Canvas, Desk, moved};
 use crate::action::Action;
-use crate::session::with_images_moved;
+use crate::session::{names_pictures, with_images_moved};
 
 /// The field of a copied document's file with the folder that its relative paths start from.
 const COPIED_FROM: &str = "copied_from";
@@ -214,10 +214,12 @@ fn copied(desk: &Desk<'_>, chosen: &Chosen) -> Document {
     copy(desk.session.document(), desk.session.group(), &chosen.pick())
 }
 
-/// What is chosen as text. It says where relative paths of pictures start, so that they mean the same files in another window.
+/// What is chosen as text. With pictures it says where their relative paths start, so that they mean the same files in another window.
 fn copied_text(desk: &Desk<'_>, chosen: &Chosen) -> String {
     let mut copied = copied(desk, chosen);
-    copied.unknown.insert(COPIED_FROM.to_owned(), folder(desk).into());
+    if names_pictures(&copied) {
+        copied.unknown.insert(COPIED_FROM.to_owned(), folder(desk).into());
+    }
     to_json(&copied)
 }
 

@@ -276,6 +276,8 @@ fn no_statement(text: &str, place: usize) -> Complaint {
     const KEYWORDS: [&str; 9] = ["return", "let", "var", "const", "if", "else", "for", "switch", "break"];
     let told = if matches!(word, "import" | "use" | "include" | "using") {
         "a node brings nothing in; functions of the library are called by their names".into()
+    } else if matches!(word, "uniform" | "varying" | "attribute" | "in" | "out" | "inout" | "static" | "precision") {
+        return (start, format!("a node has no `{word}`; what it reads are its arguments"));
     } else if matches!(word, "fn" | "struct" | "function" | "alias") {
         format!("`{word}` stands outside of functions; write it above")
     } else if matches!(word, "do" | "while" | "until" | "repeat" | "foreach") {
@@ -339,6 +341,13 @@ fn semicolon(text: &str, place: usize, sign: &str, before: &str, is_on_another_l
         }
         "{" if !word.is_empty() => format!("a value is made in round brackets: `{word}(...)`"),
         _ if is_function(word) => format!("brackets are missing: `{word}(...)`"),
+        _ if is_type(sign) && last_word(before[..before.len() - word.len()].trim_end()) == "var" => {
+            format!("a `:` is missing before `{sign}`")
+        }
+        _ if is_type(word) && last_word(before[..before.len() - word.len()].trim_end()) == "var" => {
+            let ty = elsewhere(word).map_or(word, |ours| ours.trim_matches('`'));
+            format!("the type stands behind the name: `var {sign}: {ty};`")
+        }
         "as" => "a value is made another type by a call, such as `f32(x)`".into(),
         "," if before.ends_with(|c: char| c.is_ascii_digit())
             && rest[1..].starts_with(|c: char| c.is_ascii_digit()) =>

@@ -210,7 +210,8 @@ fn select(at: usize, given: &[Given]) -> Result<Ty, Stop> {
         );
         return Err(Some((condition.at, told)));
     }
-    Ok(wanted.clone())
+    // What is chosen while the shader runs has a type of its own.
+    Ok(wanted.clone().concrete())
 }
 
 /// A read of a texture.

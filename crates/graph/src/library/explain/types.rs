@@ -150,6 +150,35 @@ impl Ty {
     }
 }
 
+/// A scalar, vector or matrix by its name; vectors in angle brackets by what they are of.
+pub(super) fn value_type(name: &str, inner: Ty) -> Ty {
+    let letter = |letter: u8| match letter {
+        b'f' => Some(Scalar::F32),
+        b'i' => Some(Scalar::I32),
+        b'u' => Some(Scalar::U32),
+        _ => None,
+    };
+    let inner = match inner {
+        Ty::Scalar(scalar) => Some(scalar),
+        _ => None,
+    };
+    let vector = |size: u8, of: Option<Scalar>| of.map_or(Ty::Unknown, |of| Ty::Vector(size - b'0', of));
+    match name.as_bytes() {
+        b"f32" => Ty::F32,
+        b"i32" => Ty::Scalar(Scalar::I32),
+        b"u32" => Ty::Scalar(Scalar::U32),
+        b"bool" => Ty::BOOL,
+        [b'v', b'e', b'c', size @ b'2'..=b'4'] => vector(*size, inner),
+        [b'v', b'e', b'c', size @ b'2'..=b'4', of] => vector(*size, letter(*of)),
+        [b'm', b'a', b't', columns @ b'2'..=b'4', b'x', rows @ b'2'..=b'4', of @ ..]
+            if matches!((of, inner), (b"f", None) | (b"", Some(Scalar::F32))) =>
+        {
+            Ty::Matrix(columns - b'0', rows - b'0')
+        }
+        _ => Ty::Unknown,
+    }
+}
+
 /// What makes the wanted type of a value, as it is written: "; write ..." or nothing.
 pub(super) fn remedy(wanted: &Ty, actual: &Ty, written: &str) -> String {
     let written = within_brackets(written);

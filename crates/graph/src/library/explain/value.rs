@@ -165,7 +165,7 @@ impl<'t> World<'t> {
             ('!', _) => "; compare it, such as `x > 0.0`",
             _ => "",
         };
-        if takes { Ok(ty) } else { Err(Some((at, format!("`{sign}` takes no {}{cure}", ty.name())))) }
+        if takes { Ok(ty) } else { Err(Some((at, format!("`{sign}` takes no {}{cure}", bare(&ty))))) }
     }
 
     /// What an operator gives of two values.
@@ -203,7 +203,7 @@ impl<'t> World<'t> {
 
     /// Why an operator does not take two values, and what to write.
     fn told(&self, sign: &str, (left, a): (&Expr<'t>, &Ty), (right, b): (&Expr<'t>, &Ty)) -> String {
-        let told = format!("`{sign}` takes no {} with {}", a.name(), b.name());
+        let told = format!("`{sign}` takes no {} with {}", bare(a), b.name());
         let pieces = |ty: &Ty| match ty {
             Ty::Parts(first, second) => Some(format!("; take its `.{first}` or `.{second}`")),
             _ => None,
@@ -253,6 +253,12 @@ impl<'t> World<'t> {
         };
         told + &cure
     }
+}
+
+/// A type's name behind "no".
+fn bare(ty: &Ty) -> String {
+    let name = ty.name();
+    name.strip_prefix("a ").map_or(name.clone(), str::to_owned)
 }
 
 /// The type of two values joined by an operator other than `&&` and `||`, if it takes them.
