@@ -1,7 +1,8 @@
 //! What the editor waits for: a picture after a number was dragged, after the camera moved, and after an edit that makes
 //! another shader (code generator, program, pipeline and picture), of a material of 30 nodes; and all of it without what is
-//! kept from picture to picture. Of the edit, what the processor does however fast the GPU is stands alone, too: our code generator, and
-//! what wgpu has naga do with the text (read, validate, translate to SPIR-V). Without a GPU, not even a software one, it says so and
+//! kept from picture to picture. Of the edit, what the processor does however fast the GPU is stands alone, too: the document changed and
+//! checked, our code generator, and what wgpu has naga do with the text (read, validate, translate to SPIR-V). What is left of the edit then is the
+//! driver's: its compiler and the picture. Who has a GPU runs `cargo bench -p halfvector-benches --bench editor -- edit`. Without a GPU, not even a software one, it says so and
 //! measures that part alone.
 
 use std::hint::black_box;
@@ -9,9 +10,12 @@ use std::sync::Arc;
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use halfvector_codegen::{Fold, shader};
-use halfvector_graph::document::Document;
+use halfvector_graph::check::check;
+use halfvector_graph::document::{Document, Node};
+use halfvector_graph::edit::{Edit, apply};
 use halfvector_graph::library::Library;
 use halfvector_graph::needs::ShaderOutput;
+use halfvector_graph::value::Value;
 use halfvector_ibl::{BakeOptions, bake};
 use halfvector_render::{Cache, RenderOptions, Renderer};
 use halfvector_scene::{BuiltinMesh, MeshSource, Scene};
@@ -66,6 +70,19 @@ fn processor(criterion: &mut Criterion) {
     let wgsl = make().wgsl;
     let mut group = criterion.benchmark_group("edit, on the processor");
     group.sample_size(20);
+    // As the window's session does: another node in the place of one, and all problems of what is there then.
+    let swap = |kind: &str| {
+        let node = Node::new(kind).with("b", Value::Number(0.4));
+        Edit::Many(vec![Edit::TakeNode { id: "rough".into() }, Edit::AddNode { id: "rough".into(), node }])
+    };
+    let (mut edited, mut kinds) = (document.clone(), [swap("math/max"), swap("math/multiply")].into_iter().cycle());
+    group.bench_function("document", |bencher| {
+        bencher.iter(|| {
+            let edit = kinds.next().expect("one of two");
+            apply(&mut edited, &edit).expect("an edit that can be made");
+            check(&edited, Library::standard()).len()
+        });
+    });
     group.bench_function("code generator", |bencher| bencher.iter(make));
     group.bench_function("naga", |bencher| bencher.iter(|| spirv(black_box(&wgsl))));
     group.finish();

@@ -143,9 +143,7 @@ impl Bench {
         let truth = loop {
             reference.add_samples(16, &|_| {}).map_err(|error| error.to_string())?;
             let truth = reference.picture();
-            let noise: f64 = truth.standard_error.as_flattened().iter().sum();
-            let all: f64 = truth.pixels.iter().flat_map(|pixel| &pixel[..3]).sum();
-            let share = if all > 0.0 { noise / all } else { 0.0 };
+            let share = truth.noise().unwrap_or(0.0);
             outbox.send(Told::Truth(share, truth.samples));
             outbox.send(Told::Faults(reference.faults()));
             outbox.send(Told::Progress("The reference".to_owned(), truth.samples as f32 / ENOUGH as f32));
@@ -183,7 +181,7 @@ impl Bench {
             let picture = self.draw(&shot, SAMPLES)?;
             let drawn: Vec<[f64; 3]> = picture.pixels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect();
             let flip = flip_hdr(&radiance, &drawn, EDGE as usize, FlipOptions::default());
-            let plain = difference(&drawn, &radiance, Some(&truth.standard_error));
+            let plain = difference(&drawn, &radiance, truth.standard_error.as_deref());
             outbox.send(Told::Row(Row {
                 term,
                 method,

@@ -51,6 +51,8 @@ pub enum Action {
     Save,
     /// Writes the document to this file, which becomes its own.
     SaveAs(PathBuf),
+    /// Writes a group of the document, with all that it needs, to a file.
+    SaveGroup(String, PathBuf),
     /// Opens a file dialog.
     Choose(Choose),
     /// Tells something in the status line.
@@ -66,6 +68,10 @@ pub enum Choose {
     SaveAs,
     /// A picture for an input.
     Image(SocketRef),
+    /// A group to add a node of.
+    Group,
+    /// A file to write a group to, by its id.
+    SaveGroup(String),
     /// A folder to write the exported shader to.
     ExportFolder,
 }

@@ -5,6 +5,7 @@
 
 mod chooser;
 mod files;
+mod groups;
 mod keys;
 mod layout;
 mod menu;
@@ -29,7 +30,7 @@ use crate::pictures::Watch;
 use crate::session::Session;
 use crate::stage::Stage;
 use crate::thumbnails::Thumbnails;
-use crate::{Options, theme};
+use crate::{Options, theme, written};
 
 /// A part of the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -92,6 +93,8 @@ pub struct Editor {
     tree: Tree<Pane>,
     files: Files,
     messages: Messages,
+    /// Whether the menu is to get the focus of the keys.
+    wants_menu: bool,
 }
 
 /// The state of the parts.
@@ -107,6 +110,8 @@ struct Panes {
     thumbnails: Thumbnails,
     cost: Cost,
     watch: Watch,
+    /// The part that is to get the focus of the keys.
+    focus: Option<Pane>,
 }
 
 impl Editor {
@@ -131,9 +136,10 @@ impl Editor {
             accuracy: Accuracy::new(context, &gpu),
             thumbnails: Thumbnails::new(context, &gpu),
             watch: Watch::new(context),
+            focus: None,
         };
         let tree = layout::restored(files.settings.layout.clone());
-        Editor { context: context.clone(), session, panes, tree, files, messages }
+        Editor { context: context.clone(), session, panes, tree, files, messages, wants_menu: false }
     }
 
     /// The open material.
@@ -149,6 +155,11 @@ impl Editor {
     /// Who drew the picture that is shown: the GPU's name, `CPU` or `reference`; none before the first one.
     pub fn drawn_by(&self) -> Option<&str> {
         self.panes.viewport.drawn_by()
+    }
+
+    /// What cannot be seen well in the graph as it was drawn last, in words: wires behind cards, cards on cards.
+    pub fn tangles(&self) -> Vec<String> {
+        self.panes.canvas.tangles()
     }
 
     /// Whether all that is shown is up to date: no picture and no shader is being made, and no file read or written.
@@ -198,6 +209,7 @@ impl Editor {
             Action::Open(path) => self.ask(Next::Open(path)),
             Action::Save => self.save(false),
             Action::SaveAs(path) => self.save_as(path, false),
+            Action::SaveGroup(id, path) => self.save_group(&id, &path)?,
             Action::Choose(purpose) => self.choose(purpose),
             Action::Say(text) => return Ok(text),
         }
@@ -244,6 +256,7 @@ impl Editor {
         }
         self.show_chooser();
         self.show_question();
+        written::show(&self.context);
         self.keep_soon();
         self.remember_soon(false);
         self.set_title();
@@ -262,6 +275,28 @@ impl Drop for Editor {
     }
 }
 
+/// Gives the focus to a part: the graph itself, of another one the first control.
+fn take_focus(ui: &egui::Ui, pane: Pane, wanted: &mut Option<Pane>) {
+    let before_first = egui::Id::new("before the first control");
+    if pane == Pane::Canvas && *wanted == Some(pane) {
+        *wanted = None;
+        ui.memory_mut(|memory| memory.request_focus(egui::Id::new("graph canvas")));
+    } else if *wanted == Some(pane) {
+        // From a place before all controls the focus goes on as by Tab.
+        let has_focus = ui.memory(|memory| memory.has_focus(before_first));
+        ui.memory_mut(|memory| match has_focus {
+            true => memory.move_focus(egui::FocusDirection::Next),
+            false => memory.request_focus(before_first),
+        });
+        let place = egui::Rect::from_min_size(ui.max_rect().min, egui::Vec2::ZERO);
+        ui.interact(place, before_first, egui::Sense::focusable_noninteractive());
+        ui.ctx().request_repaint();
+        if has_focus {
+            *wanted = None;
+        }
+    }
+}
+
 /// Draws the parts for the tiles.
 struct Behavior<'a> {
     session: &'a Session,
@@ -273,6 +308,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     fn pane_ui(&mut self, ui: &mut egui::Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
         let Behavior { session, panes, actions } = self;
         ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
+        take_focus(ui, *pane, &mut panes.focus);
         match pane {
             Pane::Canvas => panes.canvas.show(ui, session, &mut panes.thumbnails, actions),
             Pane::Viewport => panes.viewport.show(ui, session, &mut panes.thumbnails, actions),

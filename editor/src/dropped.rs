@@ -9,10 +9,11 @@ use eframe::egui;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Material,
+    Group,
     Model,
     /// For nothing else.
     Environment,
-    /// An environment, or a value over an input that takes a picture.
+    /// An environment; over an input that takes a picture it is told that it is none.
     Radiance,
     /// An environment over the viewport, a node over the graph, a value over an input that takes one.
     Picture,
@@ -23,6 +24,9 @@ fn kind(path: &Path) -> Option<Kind> {
     if path.to_str().is_some_and(|name| name.ends_with(".material.json")) {
         return Some(Kind::Material);
     }
+    if path.to_str().is_some_and(|name| name.ends_with(".group.json")) {
+        return Some(Kind::Group);
+    }
     match path.extension()?.to_str()?.to_lowercase().as_str() {
         "glb" | "gltf" => Some(Kind::Model),
         "hdre" | "ktx2" => Some(Kind::Environment),
@@ -32,9 +36,13 @@ fn kind(path: &Path) -> Option<Kind> {
     }
 }
 
-/// What an input that takes a picture can hold.
-pub(crate) fn is_picture(kind: Kind) -> bool {
-    matches!(kind, Kind::Picture | Kind::Radiance)
+/// Why an environment is not taken for a picture, and what to do.
+pub(crate) fn no_picture(path: &Path) -> String {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    format!(
+        "{name} is an environment: .hdr and .exr files are not read as pictures of a material. Drop it on the viewport to light \
+         the scene, or convert it to PNG or TIFF."
+    )
 }
 
 /// Takes the dropped files of the kinds that are wanted.
@@ -57,7 +65,7 @@ pub(crate) fn left(context: &egui::Context) -> Option<String> {
         }
         Some(_) => "it is for the viewport, which is not shown",
         None => {
-            "it is nothing to drop here: materials are *.material.json, models .glb and .gltf, environments .hdr, .exr, .hdre, \
+            "it is nothing to drop here: materials are *.material.json, groups *.group.json, models .glb and .gltf, environments .hdr, .exr, .hdre, \
              .ktx2, pictures .png, .jpg, .tif, .webp, .tga and .bmp"
         }
     };

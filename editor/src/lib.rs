@@ -26,6 +26,7 @@ mod stage;
 mod theme;
 mod thumbnails;
 mod work;
+pub mod written;
 
 use std::path::PathBuf;
 

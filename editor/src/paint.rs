@@ -126,12 +126,23 @@ pub(crate) struct Painting {
 pub(crate) struct Noise {
     /// Paths for each pixel.
     pub(crate) samples: u64,
-    /// Standard error as a share of the light, on average.
-    pub(crate) share: f64,
-    /// Standard error of each channel of each pixel.
-    pub(crate) of_pixels: Arc<[[f64; 3]]>,
+    /// Standard error as a share of the light, on average; none of a single path, or where there is no light.
+    pub(crate) share: Option<f64>,
+    /// Standard error of each channel of each pixel; none of a single path.
+    pub(crate) of_pixels: Option<Arc<[[f64; 3]]>>,
     /// What of the material is no finite number, in words.
     pub(crate) faults: Arc<[String]>,
+}
+
+impl Noise {
+    /// Paths and what noise they leave, for people.
+    pub(crate) fn words(&self) -> String {
+        match (self.share, self.samples) {
+            (Some(share), samples) => format!("{samples} paths, ±{:.1} %", 100.0 * share),
+            (None, 1) => "1 path".to_owned(),
+            (None, samples) => format!("{samples} paths"),
+        }
+    }
 }
 
 /// Why there is no picture.

@@ -205,9 +205,7 @@ impl Session {
 
     /// Whether some node names a picture.
     pub(crate) fn names_pictures(&self) -> bool {
-        let mut values =
-            graphs(&self.document).flat_map(|graph| graph.nodes.values()).flat_map(|node| node.values.values());
-        values.any(|value| matches!(value, Value::Image(_)))
+        names_pictures(&self.document)
     }
 
     /// The file of the document, if it has one.
@@ -449,7 +447,7 @@ impl Session {
 }
 
 /// The document with its image paths as they are written in another folder; `None` when all stay.
-fn with_images_moved(document: &Document, from: &Path, to: &Path) -> Option<Document> {
+pub(crate) fn with_images_moved(document: &Document, from: &Path, to: &Path) -> Option<Document> {
     let values = graphs(document).flat_map(|graph| graph.nodes.values()).flat_map(|node| node.values.values());
     if values.filter_map(|value| moved_value(value, from, to)).count() == 0 {
         return None;
@@ -464,6 +462,12 @@ fn with_images_moved(document: &Document, from: &Path, to: &Path) -> Option<Docu
         }
     }
     Some(moved)
+}
+
+/// Whether some node of a document names a picture.
+pub(crate) fn names_pictures(document: &Document) -> bool {
+    let mut values = graphs(document).flat_map(|graph| graph.nodes.values()).flat_map(|node| node.values.values());
+    values.any(|value| matches!(value, Value::Image(_)))
 }
 
 /// All graphs of a document: its own and those of its groups.

@@ -131,6 +131,12 @@ pub(crate) fn canvas(visuals: &egui::Visuals) -> CanvasColors {
 
 /// Sets both themes of the window.
 pub(crate) fn install(context: &egui::Context) {
+    context.options_mut(|options| {
+        // As long as other programs wait for the second click.
+        options.input_options.max_double_click_delay = 0.5;
+        // On a busy machine a frame may lie between press and release that takes a second.
+        options.input_options.max_click_duration = 1.5;
+    });
     context.style_mut_of(egui::Theme::Dark, |style| {
         style.visuals.panel_fill = Color32::from_rgb(0x1d, 0x1f, 0x23);
         style.visuals.window_fill = Color32::from_rgb(0x24, 0x27, 0x2c);
@@ -159,6 +165,8 @@ pub(crate) fn install(context: &egui::Context) {
             style.visuals.menu_corner_radius = CornerRadius::same(6);
             style.spacing.item_spacing = egui::vec2(6.0, 5.0);
             style.spacing.button_padding = egui::vec2(7.0, 3.0);
+            // As high as a button is: in lower rows widgets would not stand in one line.
+            style.spacing.interact_size.y = 21.0;
         });
     }
 }

@@ -5,11 +5,16 @@
 //! checks nothing else: naga does. It is safe on hostile text: no recursion, no panic, and text whose nesting would
 //! overflow a recursive parser is refused.
 
+mod nesting;
+mod references;
+
 use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 
 use crate::token::{Token, TokenKind, is_line_break, tokens};
+use nesting::refuse_depth;
+use references::references;
 
 /// What an item declares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -70,6 +75,8 @@ pub enum SliceErrorKind {
     Unfinished,
     /// A closing bracket without its opening one.
     Unbalanced,
+    /// A `(` or `[` that is open where a statement ends or begins: the bracket that is missing there.
+    Unclosed(char),
     /// More nested brackets than [`MAX_NESTING`], more operators in a statement than [`MAX_OPERATORS`], or a longer
     /// chain of `else` than [`MAX_NESTING`].
     TooDeep,
@@ -85,6 +92,7 @@ impl fmt::Display for SliceError {
             SliceErrorKind::NoName => write!(f, "expected a name after the keyword"),
             SliceErrorKind::Unfinished => write!(f, "what begins here does not end; is a bracket or `;` missing?"),
             SliceErrorKind::Unbalanced => write!(f, "this bracket was not opened"),
+            SliceErrorKind::Unclosed(missing) => write!(f, "a `{missing}` is missing here"),
             SliceErrorKind::TooDeep => write!(f, "nested too deeply; name a part of it with `let`"),
         }
     }
@@ -159,66 +167,6 @@ fn closes(comment: &str) -> bool {
         }
     }
     depth == 0
-}
-
-/// Refuses what would make a recursive parser overflow its stack.
-fn refuse_depth(source: &str, code: &[Token]) -> Result<(), Fault> {
-    let mut open: Vec<(&str, usize)> = Vec::new();
-    let mut operators = 0;
-    // Length of the chain of `else` at each depth of `{`.
-    let mut chains = vec![0_usize];
-    for (index, token) in code.iter().enumerate() {
-        match token.text(source) {
-            bracket @ ("(" | "[" | "{") => {
-                open.push((bracket, token.start));
-                if open.len() > MAX_NESTING {
-                    return Err((SliceErrorKind::TooDeep, token.start));
-                }
-                if bracket == "{" {
-                    operators = 0;
-                    chains.push(0);
-                }
-            }
-            bracket @ (")" | "]" | "}") => {
-                let matching = matches!(
-                    (open.pop().map(|(text, _)| text), bracket),
-                    (Some("("), ")") | (Some("["), "]") | (Some("{"), "}")
-                );
-                if !matching {
-                    return Err((SliceErrorKind::Unbalanced, token.start));
-                }
-                if bracket == "}" {
-                    operators = 0;
-                    chains.pop();
-                    let goes_on = code.get(index + 1).is_some_and(|next| next.text(source) == "else");
-                    if let (false, Some(chain)) = (goes_on, chains.last_mut()) {
-                        *chain = 0;
-                    }
-                }
-            }
-            ";" => operators = 0,
-            "else" => {
-                if let Some(chain) = chains.last_mut() {
-                    *chain += 1;
-                    if *chain > MAX_NESTING {
-                        return Err((SliceErrorKind::TooDeep, token.start));
-                    }
-                }
-            }
-            "," | "." | ":" | "@" => {}
-            _ if token.kind == TokenKind::Punctuation => {
-                operators += 1;
-                if operators > MAX_OPERATORS {
-                    return Err((SliceErrorKind::TooDeep, token.start));
-                }
-            }
-            _ => {}
-        }
-    }
-    match open.last() {
-        Some((_, offset)) => Err((SliceErrorKind::Unfinished, *offset)),
-        None => Ok(()),
-    }
 }
 
 /// The item whose first token is `code[first]`, without comments, and the index of the token after it.
@@ -316,114 +264,6 @@ fn block_end(source: &str, code: &[Token], at: usize) -> Option<usize> {
         }
     }
     None
-}
-
-/// Words that are part of WGSL's grammar and name nothing.
-const KEYWORDS: [&str; 24] = [
-    "alias",
-    "break",
-    "case",
-    "const",
-    "const_assert",
-    "continue",
-    "continuing",
-    "default",
-    "discard",
-    "else",
-    "enable",
-    "false",
-    "fn",
-    "for",
-    "if",
-    "let",
-    "loop",
-    "override",
-    "return",
-    "struct",
-    "switch",
-    "true",
-    "var",
-    "while",
-];
-
-/// Attributes whose argument is a word of WGSL's and no name.
-const WORD_ATTRIBUTES: [&str; 4] = ["builtin", "interpolate", "diagnostic", "blend_src"];
-
-/// Names declared in a block, or in a `for` header and valid in its block.
-#[derive(Default)]
-struct Scope<'s> {
-    names: Vec<&'s str>,
-    is_for: bool,
-}
-
-/// The words in the tokens after an item's name that refer to module scope or to WGSL itself.
-fn references(source: &str, code: &[Token], kind: ItemKind) -> Vec<Range<usize>> {
-    let text = |index: usize| code.get(index).map_or("", |t| t.text(source));
-    let mut found = Vec::new();
-    let mut scopes = vec![Scope::default()];
-    // A local is known from the end of its own statement: `let x = x(1.0);` calls a function x.
-    let mut pending: Option<&str> = None;
-    let (mut parentheses, mut braces) = (0_usize, 0_usize);
-    let mut at = 0;
-    while at < code.len() {
-        let token = &code[at];
-        let word = token.text(source);
-        match word {
-            "@" => {
-                let name = text(at + 1);
-                at = if WORD_ATTRIBUTES.contains(&name) { skip_attributes(source, code, at) } else { at + 2 };
-                continue;
-            }
-            "(" => parentheses += 1,
-            ")" => parentheses = parentheses.saturating_sub(1),
-            "{" => {
-                braces += 1;
-                scopes.push(Scope::default());
-            }
-            "}" => {
-                braces = braces.saturating_sub(1);
-                scopes.pop();
-                while scopes.last().is_some_and(|s| s.is_for) {
-                    scopes.pop();
-                }
-                pending = None;
-            }
-            ";" => {
-                if let (Some(name), Some(scope)) = (pending.take(), scopes.last_mut()) {
-                    scope.names.push(name);
-                }
-            }
-            "for" => scopes.push(Scope { names: Vec::new(), is_for: true }),
-            "let" | "const" | "var" if kind == ItemKind::Fn => {
-                let name = skip_template(source, code, at + 1);
-                pending = code.get(name).filter(|t| t.kind == TokenKind::Identifier).map(|t| t.text(source));
-                at = name + 1;
-                continue;
-            }
-            _ if token.kind == TokenKind::Identifier && !KEYWORDS.contains(&word) => {
-                let member = at > 0 && text(at - 1) == ".";
-                let declares = text(at + 1) == ":"
-                    && match kind {
-                        ItemKind::Fn => braces == 0 && parentheses == 1,
-                        ItemKind::Struct => braces == 1 && parentheses == 0,
-                        ItemKind::Const | ItemKind::Alias | ItemKind::Var => false,
-                    };
-                if declares && kind == ItemKind::Fn {
-                    scopes[0].names.push(word);
-                }
-                let local = scopes.iter().any(|s| s.names.contains(&word));
-                if !member && !declares && !local {
-                    found.push(token.start..token.end);
-                }
-            }
-            _ => {}
-        }
-        at += 1;
-        if scopes.is_empty() {
-            scopes.push(Scope::default());
-        }
-    }
-    found
 }
 
 /// Where the comments begin that stand directly above `start`: no blank line between, no code on their lines.
@@ -526,6 +366,17 @@ mod tests {
         assert_eq!(fault("fn f() {").kind, SliceErrorKind::Unfinished);
         assert_eq!(fault("fn f();").kind, SliceErrorKind::Unfinished);
         assert_eq!(fault("fn f() )").kind, SliceErrorKind::Unbalanced);
+        for (text, missing, offset) in [
+            ("fn f() { a(b; }", ')', 12),
+            ("fn f() { a(b\n}", ')', 12),
+            ("fn f() { a[b\n  return c; }", ']', 12),
+            ("fn f() { if (a { } }", ')', 14),
+            ("fn f() { a(b[0); }", ']', 14),
+            ("fn f() { for (var i = 0; i < 3; i++ { } }", ')', 35),
+        ] {
+            let fault = fault(text);
+            assert_eq!((fault.kind, fault.offset), (SliceErrorKind::Unclosed(missing), offset), "{text}");
+        }
         assert_eq!(fault("fn () {}").kind, SliceErrorKind::NoName);
         assert_eq!(fault("/* /* */").kind, SliceErrorKind::Unfinished);
         assert_eq!(fault("@").kind, SliceErrorKind::NotAnItem("@".into()));

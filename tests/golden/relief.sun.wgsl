@@ -44,7 +44,7 @@ fn vs_main(in: VertexInput) -> Varyings {
     let world_position = position_in_world(object.world_from_object, in.position);
     let world_normal = normal_in_world(object.normal_from_object, in.normal);
     let world_tangent = tangent_in_world(object.world_from_object, in.tangent);
-    let relief = node_textures_image_height_vertex(relief_texture, linear_repeat, in.uv0); // Relief
+    let relief = blended_node_textures_image_vertex(relief_texture, linear_repeat, in.uv0); // Relief
     let height = (relief.r - 0.0) * 0.05; // Height
     let displaced_position = displaced(world_position, world_normal, height);
     var out: Varyings;
@@ -60,7 +60,7 @@ fn vs_main(in: VertexInput) -> Varyings {
 fn fs_main(in: Varyings) -> @location(0) vec4f {
     let world_normal = normalize_or(in.world_normal, vec3f(0.0, 0.0, 1.0));
     let view_dir = normalize(view.camera_position - in.world_position);
-    let relief = node_textures_image_height(relief_texture, linear_repeat, in.uv0); // Relief
+    let relief = blended_node_textures_image(relief_texture, linear_repeat, in.uv0); // Relief
     let height = (relief.r - 0.0) * 0.05; // Height
     let displaced_normal = normal_from_height(dpdx(in.world_position), dpdy(in.world_position), world_normal, dpdx(height), dpdy(height));
     let displaced_tangent_2 = displaced_tangent(world_normal, in.world_tangent, displaced_normal);
@@ -391,7 +391,7 @@ fn blended_texels(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f, lev
 }
 
 /// A picture at a level that may lie between two of its own, which are blended linearly.
-fn blended_levels(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f, lod: f32) -> vec4f {
+fn blended_level(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f, lod: f32) -> vec4f {
     // No texture has more than 2^15 texels a side.
     let level = clamp(lod, 0.0, 15.0);
     let fine = blended_texels(image, image_sampler, uv, u32(level));
@@ -403,13 +403,18 @@ fn blended_levels(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f, lod
     return mix(fine, blended_texels(image, image_sampler, uv, u32(level) + 1u), part);
 }
 
-/// The level whose texels are as wide as a pixel is in `uv`, as a sampler chooses it: one for a block of 2 x 2 pixels, whose difference
-/// is then one of places, and not of levels. At least 0.
-fn texel_lod(image: texture_2d<f32>, uv: vec2f) -> f32 {
+/// A picture at the level whose texels are as wide as a pixel is, as a sampler chooses it, at least 0; the pixel's sides are given in
+/// coordinates of the picture.
+fn blended_grad(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f, uv_ddx: vec2f, uv_ddy: vec2f) -> vec4f {
     let size = vec2f(textureDimensions(image));
-    let x = dpdxCoarse(uv) * size;
-    let y = dpdyCoarse(uv) * size;
-    return 0.5 * log2(max(max(dot(x, x), dot(y, y)), 1.0));
+    let x = uv_ddx * size;
+    let y = uv_ddy * size;
+    return blended_level(image, image_sampler, uv, 0.5 * log2(max(max(dot(x, x), dot(y, y)), 1.0)));
+}
+
+/// A picture at the pixel's own level: one for a block of 2 x 2 pixels, whose difference is then one of places, and not of levels.
+fn blended_sample(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> vec4f {
+    return blended_grad(image, image_sampler, uv, dpdxCoarse(uv), dpdyCoarse(uv));
 }
 
 // ---- nodes/textures/image.wgsl
@@ -428,14 +433,20 @@ struct ImageOutputs {
     b: f32,
 }
 
-/// The image read for a height.
-fn node_textures_image_height(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> ImageOutputs {
-    let texel = blended_levels(image, image_sampler, uv, texel_lod(image, uv));
+/// For a slope, with texels blended by arithmetic:
+///
+/// Image
+///
+/// Reads a picture, with mip levels. Mark colours as sRGB, and everything else (roughness, normals, heights) as linear.
+fn blended_node_textures_image(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> ImageOutputs {
+    let texel = blended_sample(image, image_sampler, uv);
     return ImageOutputs(texel.rgb, texel.a, texel.r, texel.g, texel.b);
 }
 
-/// The image read for the height of a vertex, at its finest level.
-fn node_textures_image_height_vertex(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> ImageOutputs {
-    let texel = blended_texels(image, image_sampler, uv, 0u);
+/// For a slope, with texels blended by arithmetic:
+///
+/// The image read at its finest level: the vertex stage has no derivatives to choose another one by.
+fn blended_node_textures_image_vertex(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> ImageOutputs {
+    let texel = blended_level(image, image_sampler, uv, 0.0);
     return ImageOutputs(texel.rgb, texel.a, texel.r, texel.g, texel.b);
 }

@@ -55,7 +55,7 @@ fn fs_main(in: Varyings, @builtin(front_facing) front_facing: bool) -> @location
     let frame = frame_from_normal(normal, view_dir);
     let specular = Specular(vec3f(0.07692309), vec3f(1.0), alpha_from_perceptual_roughness(0.2));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.2);
-    let transmission = Transmission(vec3f(0.8, 0.9, 1.0) * 1.0, 1.5, alpha_from_perceptual_roughness(0.2));
+    let transmission = Transmission(vec3f(0.8, 0.9, 1.0), 1.5, alpha_from_perceptual_roughness(0.2));
     let reflection_dir = specular_direction(frame, reflect(-frame.view_dir, frame.normal), 0.2);
     let reflection = environment_sample_hermite(prefiltered_radiance, linear_clamp, reflection_dir, lod_geometric(0.2, view.environment_levels));
     let transmitted = environment_sample_hermite(prefiltered_radiance, linear_clamp, -specular_direction(frame, frame.view_dir, 0.2), lod_geometric(0.2, view.environment_levels));

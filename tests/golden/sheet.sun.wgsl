@@ -56,7 +56,7 @@ fn fs_main(in: Varyings, @builtin(front_facing) front_facing: bool) -> @location
     let frame = frame_from_normal(normal, view_dir);
     let specular = Specular(vec3f(0.07692309), vec3f(1.0), alpha_from_perceptual_roughness(max(0.2, PUNCTUAL_ROUGHNESS_FLOOR)));
     let dfg = dfg_from_table(dfg_table, linear_clamp, frame.n_dot_v, 0.2);
-    let transmission = Transmission(vec3f(0.8, 0.9, 1.0) * 1.0, 1.5, alpha_from_perceptual_roughness(max(0.2, PUNCTUAL_ROUGHNESS_FLOOR)));
+    let transmission = Transmission(vec3f(0.8, 0.9, 1.0), 1.5, alpha_from_perceptual_roughness(max(0.2, PUNCTUAL_ROUGHNESS_FLOOR)));
     let transmission_gain = transmission_thin_compensation(0.07692309, dfg);
     let directional_light = directional_light_sample(lights.directional, in.world_position);
     var directional_lit = specular_eval(frame, directional_light.dir, specular);

@@ -54,6 +54,7 @@ fn on_the_browsers_own_device_the_pictures_are_the_same() {
     let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     println!("{said}");
     assert!(output.status.success(), "on one device the pictures differ");
+    assert!(said.contains("2 passed"), "not both comparisons ran");
 }
 
 /// A running browser with a page. It ends when this is dropped.

@@ -2,14 +2,17 @@
 
 mod canvas;
 mod cards;
+mod clipboard;
 mod code;
 mod connecting;
 mod files;
 mod frames;
 mod functions;
+mod group_files;
 mod groups;
 mod hands;
 mod inspector;
+mod keyboard;
 mod library;
 mod measures;
 mod opening;
@@ -20,6 +23,7 @@ mod snapshots;
 mod story;
 mod undo;
 mod viewport;
+mod written;
 
 use std::time::{Duration, Instant};
 

@@ -15,6 +15,7 @@ mod images;
 mod interp;
 mod live;
 mod methods;
+mod models;
 mod nodes;
 mod normal_tangent;
 mod normal_tangent_texels;

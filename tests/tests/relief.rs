@@ -203,6 +203,100 @@ fn displaced_spheres_shade_like_their_surface() {
     assert!(angles.len() > 20_000 && mean < 1.2 && most < 5.0, "{mean} {most}");
 }
 
+/// A material displaced by slanting waves of 0.1 in a mesh that is drawn 0.85 times as large, with a normal map of one colour or brushed metal.
+fn wavy(is_moved: bool, is_brushed: bool) -> Document {
+    let links = [
+        is_moved.then_some(r#"{"from": "waves.out", "to": "surface.height"}"#),
+        (!is_brushed).then_some(r#"{"from": "tilt.out", "to": "surface.normal"}"#),
+    ];
+    let surface = if is_brushed {
+        r#""base_color": [1, 1, 1], "metallic": 1, "perceptual_roughness": 0.5, "anisotropy": 0.9"#
+    } else {
+        r#""base_color": [1, 1, 1], "specular": 0"#
+    };
+    let text = format!(
+        r#"{{"halfvector": 1, "name": "Waves", "nodes": {{"waves": {{"node": "custom/waves"}},
+        "tilt": {{"node": "textures/normal_map", "values": {{"color": [0.75, 0.65, 0.8]}}}},
+        "surface": {{"node": "surface/surface", "values": {{{surface}}}}}}}, "links": [{}],
+        "functions": {{"waves": ["/// Waves", "///", "/// Waves.", "/// @node custom/waves", "/// - o: place [context object_position]",
+        "/// - return: height", "fn waves(o: vec3f) -> f32 {{", "    return 0.085 * sin(dot(o, vec3f(5.0, 4.0, 3.0)));", "}}"]}}}}"#,
+        links.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    );
+    halfvector_graph::file::from_json(&text).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A mesh that has the shape of those waves, with the normals and tangents of that shape. `curvatures`: those of the mesh along its tangent
+/// and across, at a vertex; the tangent runs along one of them.
+fn with_waves(mesh: &Mesh, curvatures: impl Fn(DVec3, DVec3) -> [f64; 2]) -> Mesh {
+    let mut shaped = mesh.clone();
+    let wave = DVec3::new(5.0, 4.0, 3.0);
+    for i in 0..mesh.positions.len() {
+        let [p, n] = [mesh.positions[i], mesh.normals[i]].map(|x| DVec3::from(x.map(f64::from)));
+        let [x, y, z, w] = mesh.tangents[i].map(f64::from);
+        let t = DVec3::new(x, y, z);
+        let b = n.cross(t);
+        let (height, slope) = (0.1 * wave.dot(p).sin(), 0.1 * wave.dot(p).cos() * wave);
+        let [along, across] = curvatures(p, n);
+        // How the moved place changes: p + h n, with dn = curvature dp.
+        let new_t = t * (1.0 + height * along) + n * slope.dot(t);
+        let new_b = b * (1.0 + height * across) + n * slope.dot(b);
+        shaped.positions[i] = (p + height * n).as_vec3().to_array();
+        shaped.normals[i] = new_t.cross(new_b).normalize().as_vec3().to_array();
+        shaped.tangents[i] = new_t.normalize().as_vec3().extend(w as f32).to_array();
+    }
+    shaped
+}
+
+/// Normal maps and brushed lobes lie on a displaced surface that is curved as on a mesh of its shape: along the tangent that moved with it.
+#[test]
+fn tangents_of_curved_displaced_surfaces_are_those_of_their_shape() {
+    let Some(renderer) = renderer() else { return };
+    let nowhere = std::path::Path::new("");
+    let sphere = halfvector_scene::BuiltinMesh::Sphere.parts()[0].mesh.clone();
+    let torus = halfvector_scene::BuiltinMesh::Torus.parts()[0].mesh.clone();
+    // The ring lies around Z; its tube has the radius 0.3.
+    let of_torus = |p: DVec3, n: DVec3| {
+        let out = DVec3::new(p.x, p.y, 0.0);
+        [n.dot(out) / out.length_squared(), 1.0 / 0.3]
+    };
+    for (name, mesh, shaped) in
+        [("sphere", &sphere, with_waves(&sphere, |_, _| [1.0; 2])), ("torus", &torus, with_waves(&torus, of_torus))]
+    {
+        let small = Mat4::from_scale(Vec3::splat(0.85));
+        let tilted = |mesh: &Mesh, is_moved| {
+            normals(&renderer, scene(mesh.clone(), wavy(is_moved, false), nowhere, small), front_lights())
+        };
+        let (found, truth) = (tilted(mesh, true), tilted(&shaped, false));
+        let both = found.iter().zip(&truth).filter_map(|(a, b)| Some(((*a)?, (*b)?)));
+        let mut angles: Vec<f64> = both
+            .filter(|(_, truth)| truth.z > 0.6)
+            .map(|(found, truth)| found.angle_between(truth).to_degrees())
+            .collect();
+        angles.sort_by(f64::total_cmp);
+        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+        let brushed = |mesh: &Mesh, is_moved| {
+            let mut scene = scene(mesh.clone(), wavy(is_moved, true), nowhere, small);
+            scene.lights = [Vec3::new(0.4, 0.5, 1.0), Vec3::new(-0.6, 0.1, 0.7)]
+                .map(|l| Light::Directional { direction_to_light: l.normalize(), illuminance: Vec3::ONE })
+                .to_vec();
+            draw(&renderer, &scene).pixels
+        };
+        let (found, truth) = (brushed(mesh, true), brushed(&shaped, false));
+        let (mut off, mut light) = (0.0, 0.0);
+        for (a, b) in found.iter().zip(&truth).filter(|(a, b)| a[3] == 1.0 && b[3] == 1.0) {
+            off += f64::from((a[0] - b[0]).abs());
+            light += f64::from(b[0]);
+        }
+        println!(
+            "{name}: tilted normals mean {mean:.3} degrees of {}; brushed off by {:.4}",
+            angles.len(),
+            off / light
+        );
+        assert!(angles.len() > 10_000 && mean < 1.5, "{name}: {mean}");
+        assert!(light > 100.0 && off / light < 0.1, "{name}: {}", off / light);
+    }
+}
+
 /// The node that makes a normal map of a height map, through the normal map node.
 #[test]
 fn normals_from_heights_are_the_relief() {

@@ -29,26 +29,9 @@ pub(crate) fn data(path: &str) -> Option<PathBuf> {
     }
 }
 
-/// An example as it stands, or, where it reads others' models, a copy that finds them in the data; none where they are not there. A
-/// copy, for what an example says is `../shared/data` beside the project, and the data may lie elsewhere.
+/// [`crate::models::with_models`] with the models of the data folder.
 pub(crate) fn with_models(example: PathBuf) -> Option<PathBuf> {
-    let name = example.file_name()?.to_str()?;
-    if !name.starts_with("flight-helmet") {
-        return Some(example);
-    }
-    let models = data("models")?;
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("flight-helmet");
-    std::fs::create_dir_all(&folder).expect("a folder for the copy");
-    // The scene names the material.
-    for name in ["flight-helmet.scene.json", "flight-helmet-leather.material.json"] {
-        let text = std::fs::read_to_string(example.with_file_name(name)).expect("an example");
-        let found = text.replace("../../shared/data/models", models.to_str().expect("a path of characters"));
-        assert_ne!(found, text, "{name} has its models elsewhere");
-        // Renamed into place, for another process may be reading it.
-        let written = folder.join(format!("{name}.{}", std::process::id()));
-        std::fs::write(&written, found).and_then(|()| std::fs::rename(&written, folder.join(name))).expect("a copy");
-    }
-    Some(folder.join(name))
+    crate::models::with_models(example, || data("models"))
 }
 
 /// A renderer on the GPU of this machine, a software one included, or none with a printed line.

@@ -1,4 +1,4 @@
-//! The program `halfvector`: the command line, which is a contract (ARCHITECTURE.md), and nothing of the work itself.
+//! The program `halfvector`: the command line, and nothing of the work itself.
 
 mod backend;
 mod budget;
@@ -28,7 +28,8 @@ use crate::commands::{bake, check, compare, edit, export, methods, nodes, render
     after_help = "Example:
   halfvector render examples/surface.material.json --set metallic=1 -o metal.png
 
-Exit codes: 0 done, 1 the input is wrong, 2 the command line is wrong, 3 `check` found something."
+Exit codes: 0 done, 1 the input is wrong, 2 the command line is wrong, 3 `check` or\n\
+`report --compare` found something, 130 `report` was interrupted."
 )]
 struct Cli {
     #[command(subcommand)]

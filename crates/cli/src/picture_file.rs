@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use exr::prelude::{
-    ReadChannels as _, ReadLayers as _, ReadSpecificChannel as _, SpecificChannels, WritableImage as _,
+    LayerAttributes, ReadChannels as _, ReadLayers as _, ReadSpecificChannel as _, SpecificChannels, Vec2,
+    WritableImage as _,
 };
 use halfvector_scene::{Display, Picture};
 use image::{ExtendedColorType, ImageEncoder};
@@ -34,8 +35,9 @@ pub(crate) enum PictureFormat {
 /// Where an .exr file holds the standard errors of red, green and blue.
 const ERROR_CHANNELS: [&str; 3] = ["error.R", "error.G", "error.B"];
 
-/// Where it says what the noise was drawn with: a text, the number.
+/// Where it says what the noise was drawn with, and by how many paths for each pixel: texts, the numbers.
 const SEED: &str = "halfvector.seed";
+const SAMPLES: &str = "halfvector.samples";
 
 /// Reads a file name by its extension.
 pub(crate) fn parse_picture_file(text: &str) -> Result<PictureFile, String> {
@@ -50,20 +52,31 @@ pub(crate) fn parse_picture_file(text: &str) -> Result<PictureFile, String> {
     Ok(PictureFile { path, format })
 }
 
-/// Writes a picture in the file's format. Of a noisy one the standard error of each pixel stands in an .exr beside it, in the
-/// channels `error.R`, `error.G` and `error.B`, and the seed in the attribute `halfvector.seed`; other formats have no place for
-/// them.
+/// What is known of the noise of a picture that is written.
+#[derive(Clone, Debug)]
+pub(crate) struct OwnNoise {
+    /// The standard errors of each pixel's red, green and blue; none of a single path.
+    pub(crate) errors: Option<Vec<[f32; 3]>>,
+    /// What it was drawn with.
+    pub(crate) seed: u64,
+    /// Paths for each pixel.
+    pub(crate) samples: u64,
+}
+
+/// Writes a picture in the file's format. Of a noisy one the standard error of each pixel, where it is known, stands in an .exr beside
+/// it, in the channels `error.R`, `error.G` and `error.B`, and seed and paths in the attributes `halfvector.seed` and
+/// `halfvector.samples`; other formats have no place for them.
 pub(crate) fn write(
     file: &PictureFile,
     picture: &Picture,
-    noise: Option<(&[[f32; 3]], u64)>,
+    noise: Option<&OwnNoise>,
     display: Display,
 ) -> Result<(), Failure> {
     let bytes = match (file.format, noise) {
         (PictureFormat::Png, _) => png(picture, display),
         (PictureFormat::Exr, None) => exr(picture),
-        (PictureFormat::Exr, Some((error, seed))) => {
-            let bytes = exr_with_error(picture, error, seed);
+        (PictureFormat::Exr, Some(noise)) => {
+            let bytes = noisy_exr(picture, noise);
             let bytes = bytes.map_err(|error| encoding_failed(&file.path, &error))?;
             return write_file(&file.path, &bytes);
         }
@@ -105,33 +118,50 @@ fn exr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
     Ok(bytes.into_inner())
 }
 
-fn exr_with_error(picture: &Picture, error: &[[f32; 3]], seed: u64) -> Result<Vec<u8>, exr::error::Error> {
-    let (width, height) = (picture.width as usize, picture.height as usize);
-    let channels = SpecificChannels::build().with_channel("R").with_channel("G").with_channel("B").with_channel("A");
-    let [of_r, of_g, of_b] = ERROR_CHANNELS;
-    let channels = channels.with_channel(of_r).with_channel(of_g).with_channel(of_b).with_pixel_fn(|place| {
-        let at = place.y() * width + place.x();
-        let ([r, g, b, a], [dr, dg, db]) = (picture.pixels[at], error[at]);
-        (r, g, b, a, dr, dg, db)
-    });
+fn noisy_exr(picture: &Picture, noise: &OwnNoise) -> Result<Vec<u8>, exr::error::Error> {
+    let size = (picture.width as usize, picture.height as usize);
+    let at = |place: Vec2<usize>| place.y() * size.0 + place.x();
+    let origin = |attributes: &mut LayerAttributes| {
+        for (name, number) in [(SEED, noise.seed), (SAMPLES, noise.samples)] {
+            let text = exr::meta::attribute::AttributeValue::Text(number.to_string().as_str().into());
+            attributes.other.insert(name.into(), text);
+        }
+    };
     let mut bytes = std::io::Cursor::new(Vec::new());
-    let mut image = exr::image::Image::from_channels((width, height), channels);
-    let seed = exr::meta::attribute::AttributeValue::Text(seed.to_string().as_str().into());
-    image.layer_data.attributes.other.insert(SEED.into(), seed);
-    image.write().to_buffered(&mut bytes)?;
+    let channels = SpecificChannels::build().with_channel("R").with_channel("G").with_channel("B").with_channel("A");
+    if let Some(errors) = &noise.errors {
+        let [of_r, of_g, of_b] = ERROR_CHANNELS;
+        let channels = channels.with_channel(of_r).with_channel(of_g).with_channel(of_b).with_pixel_fn(|place| {
+            let ([r, g, b, a], [dr, dg, db]) = (picture.pixels[at(place)], errors[at(place)]);
+            (r, g, b, a, dr, dg, db)
+        });
+        let mut image = exr::image::Image::from_channels(size, channels);
+        origin(&mut image.layer_data.attributes);
+        image.write().to_buffered(&mut bytes)?;
+    } else {
+        let channels = channels.with_pixel_fn(|place| {
+            let [r, g, b, a] = picture.pixels[at(place)];
+            (r, g, b, a)
+        });
+        let mut image = exr::image::Image::from_channels(size, channels);
+        origin(&mut image.layer_data.attributes);
+        image.write().to_buffered(&mut bytes)?;
+    }
     Ok(bytes.into_inner())
 }
 
 /// What an .exr file says of the noise of its picture.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Noise {
-    /// The standard errors of each pixel's red, green and blue.
-    pub(crate) errors: Vec<[f64; 3]>,
+    /// The standard errors of each pixel's red, green and blue; none of a single path, whose noise is not known.
+    pub(crate) errors: Option<Vec<[f64; 3]>>,
     /// What the noise was drawn with.
     pub(crate) seed: Option<u64>,
+    /// Paths for each pixel.
+    pub(crate) samples: Option<u64>,
 }
 
-/// What an .exr file says of its noise; none where it has no channel for that.
+/// What an .exr file says of its noise; none where it has no word on that.
 ///
 /// # Errors
 /// Why what it says is not to be used: channels that are missing, or hold what no standard error is.
@@ -140,17 +170,22 @@ pub(crate) fn noise(path: &Path) -> Result<Option<Noise>, String> {
     let has = |header: &exr::meta::header::Header, name: &str| {
         header.channels.list.iter().any(|channel| channel.name == *name)
     };
+    let number = |header: &exr::meta::header::Header, name: &str| -> Option<u64> {
+        match header.own_attributes.other.get(&exr::meta::attribute::Text::from(name)) {
+            Some(exr::meta::attribute::AttributeValue::Text(text)) => text.to_string().parse().ok(),
+            _ => None,
+        }
+    };
     let Some(header) = meta.headers.iter().find(|header| ERROR_CHANNELS.iter().any(|name| has(header, name))) else {
-        return Ok(None);
+        let noisy = meta.headers.iter().find(|header| number(header, SAMPLES).is_some());
+        let unknown = |header| Noise { errors: None, seed: number(header, SEED), samples: number(header, SAMPLES) };
+        return Ok(noisy.map(unknown));
     };
     let missing: Vec<&str> = ERROR_CHANNELS.into_iter().filter(|name| !has(header, name)).collect();
     if !missing.is_empty() {
         return Err(format!("it has standard errors, but no channel {}", missing.join(", ")));
     }
-    let seed = match header.own_attributes.other.get(&exr::meta::attribute::Text::from(SEED)) {
-        Some(exr::meta::attribute::AttributeValue::Text(text)) => text.to_string().parse().ok(),
-        _ => None,
-    };
+    let (seed, samples) = (number(header, SEED), number(header, SAMPLES));
     let [of_r, of_g, of_b] = ERROR_CHANNELS;
     let channels = exr::image::read::read().no_deep_data().largest_resolution_level().specific_channels();
     let pixels = channels.required(of_r).required(of_g).required(of_b).collect_pixels(
@@ -169,7 +204,9 @@ pub(crate) fn noise(path: &Path) -> Result<Option<Noise>, String> {
             at / width.max(1)
         ));
     }
-    Ok(Some(Noise { errors, seed }))
+    // An older file of a single path has zeros, which no spread of any has.
+    let is_known = samples.is_some() || errors.as_flattened().iter().any(|error| *error > 0.0);
+    Ok(Some(Noise { errors: is_known.then_some(errors), seed, samples }))
 }
 
 fn hdr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
@@ -208,14 +245,22 @@ mod tests {
         let error = [[0.1, 0.2, 0.3], [4.0, 0.0, 6.0]];
         let folder = tempfile::tempdir().expect("a folder");
         let [with, without] = ["with.exr", "without.exr"].map(|name| folder.path().join(name));
-        let bytes = exr_with_error(&picture, &error, u64::MAX).expect("coded");
+        let own = |errors: Option<Vec<[f32; 3]>>| OwnNoise { errors, seed: u64::MAX, samples: 9 };
+        let bytes = noisy_exr(&picture, &own(Some(error.to_vec()))).expect("coded");
         std::fs::write(&with, &bytes).expect("written");
         std::fs::write(&without, exr(&picture).expect("coded")).expect("written");
         let colors = image::load_from_memory(&bytes).expect("readable").into_rgba32f();
         assert_eq!(colors.as_raw().as_slice(), picture.pixels.as_flattened());
         let errors = error.map(|e| e.map(f64::from)).to_vec();
-        assert_eq!(noise(&with), Ok(Some(Noise { errors, seed: Some(u64::MAX) })));
+        let seed = Some(u64::MAX);
+        assert_eq!(noise(&with), Ok(Some(Noise { errors: Some(errors), seed, samples: Some(9) })));
         assert_eq!(noise(&without), Ok(None));
+        // A single path: no channels, and it is said that there is noise.
+        let bytes = noisy_exr(&picture, &OwnNoise { samples: 1, ..own(None) }).expect("coded");
+        std::fs::write(&with, &bytes).expect("written");
+        assert_eq!(noise(&with), Ok(Some(Noise { errors: None, seed, samples: Some(1) })));
+        let colors = image::load_from_memory(&bytes).expect("readable").into_rgba32f();
+        assert_eq!(colors.as_raw().as_slice(), picture.pixels.as_flattened());
     }
 
     #[test]
@@ -225,7 +270,8 @@ mod tests {
         let picture = Picture { width: 2, height: 1, pixels: vec![[1.0; 4]; 2] };
         for wrong in [f32::NAN, -1.0, f32::INFINITY] {
             let error = [[0.1; 3], [0.1, wrong, 0.1]];
-            std::fs::write(&path, exr_with_error(&picture, &error, 1).expect("coded")).expect("written");
+            let noise_of = OwnNoise { errors: Some(error.to_vec()), seed: 1, samples: 4 };
+            std::fs::write(&path, noisy_exr(&picture, &noise_of).expect("coded")).expect("written");
             let why = noise(&path).expect_err("told");
             assert!(why.contains("column 1, row 0"), "{why}");
         }

@@ -2,13 +2,13 @@
 
 use std::sync::Mutex;
 
-use halfvector_reference::{Reference, RenderOptions};
+use halfvector_reference::{Conductor, EnvironmentFilter, Reference, RenderOptions};
 use halfvector_scene::{Display, Picture, Scene};
 
 use crate::environment::load;
 use crate::failure::Failure;
 use crate::output::{note, progress};
-use crate::picture_file::{PictureFile, write};
+use crate::picture_file::{OwnNoise, PictureFile, write};
 
 /// How it is rendered.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +21,10 @@ pub(crate) struct ReferenceOptions {
     pub(crate) seed: u64,
     /// How often light goes from surface to surface.
     pub(crate) bounces: u32,
+    /// What the environment is between its texels.
+    pub(crate) filter: EnvironmentFilter,
+    /// A metal in the place of every material's Fresnel term.
+    pub(crate) conductor: Option<Conductor>,
 }
 
 /// Renders a scene to a file, with a progress bar, and tells of the noise that is left.
@@ -29,8 +33,9 @@ pub(crate) fn draw(scene: &Scene, options: ReferenceOptions, output: &PictureFil
         Failure::input("the picture could not be rendered").because(error)
     };
     let [width, height] = options.size;
-    let ReferenceOptions { seed, bounces, .. } = options;
-    let render = RenderOptions { width, height, seed, bounces, ..RenderOptions::default() };
+    let ReferenceOptions { seed, bounces, filter: environment_filter, conductor, .. } = options;
+    let render =
+        RenderOptions { width, height, seed, bounces, environment_filter, conductor, ..RenderOptions::default() };
     let environment = load(&scene.environment)?;
     let mut reference = Reference::new(scene, environment.as_ref(), render).map_err(failed)?;
     let bar = Mutex::new((progress("rendering"), 0.0_f32));
@@ -49,22 +54,40 @@ pub(crate) fn draw(scene: &Scene, options: ReferenceOptions, output: &PictureFil
     }
     reference.faults().iter().for_each(|text| note(format_args!("warning: {text}")));
     let picture = reference.picture();
-    let (mut noise, mut light) = (0.0, 0.0);
-    for (pixel, error) in picture.pixels.iter().zip(&picture.standard_error) {
-        noise += error.iter().sum::<f64>();
-        light += pixel[..3].iter().sum::<f64>();
+    if picture.standard_error.is_none() {
+        note(
+            "note: one path for each pixel: its noise is not known, and no standard error is written; --samples 16 or more measure it",
+        );
     }
-    if light > 0.0 && picture.samples > 1 {
+    if let Some(noise) = picture.noise() {
         note(format_args!(
             "note: {} paths for each pixel; standard error {:.2} % of the light on average; four times as many halve it",
             picture.samples,
-            100.0 * noise / light
+            100.0 * noise
         ));
+        if let Some(rough) = roughness(picture.samples) {
+            note(format_args!("note: {rough}"));
+        }
     }
     let pixels = picture.pixels.iter().map(|pixel| pixel.map(|x| x as f32)).collect();
     let display = Display::ToneMapped { exposure: scene.exposure.factor(), tone_map: scene.tone_map };
-    let error: Vec<[f32; 3]> = picture.standard_error.iter().map(|error| error.map(|x| x as f32)).collect();
-    write(output, &Picture { width, height, pixels }, Some((&error, seed)), display)?;
+    let narrow = |errors: Vec<[f64; 3]>| errors.into_iter().map(|error| error.map(|x| x as f32)).collect();
+    let noise = OwnNoise { errors: picture.standard_error.map(narrow), seed, samples: picture.samples };
+    write(output, &Picture { width, height, pixels }, Some(&noise), display)?;
     note(format_args!("{}: {width} x {height}, drawn by the reference", output.path.display()));
     Ok(())
+}
+
+/// Fewest paths of a pixel whose spread says well enough what its standard error is: to 18 %.
+const ENOUGH: u64 = 16;
+
+/// What is said of standard errors of few paths for each pixel.
+pub(crate) fn roughness(samples: u64) -> Option<String> {
+    let share = 1.0 / (2.0 * samples as f64 - 2.0).sqrt();
+    (2..ENOUGH).contains(&samples).then(|| {
+        format!(
+            "the standard error of a pixel of {samples} paths is itself known to about {:.0} % only; --samples {ENOUGH} or more tell it better",
+            100.0 * share
+        )
+    })
 }

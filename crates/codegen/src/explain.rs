@@ -12,7 +12,7 @@ use halfvector_graph::needs::{EnvironmentNeeds, Needs};
 use crate::fate::dropped_nodes;
 use crate::passes::plan::Keep;
 use crate::pipeline::{Material, Sound};
-use crate::{CodegenError, DroppedNode, Fold, Shader, cost};
+use crate::{CodegenError, DroppedNode, Fold, Shader, cost, slopes};
 
 /// A paragraph of the comment at the top of a shader.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,7 +29,7 @@ const MAX_COUNTED: usize = 192 << 10;
 const MAX_COUNTED_NODES: usize = 4000;
 
 /// The shader that [`shader()`](crate::shader()) makes under [`Fold::Export`], which says also what each thing saves that was left
-/// out, which nodes are not in it, and in its comment what `remarks` say. It makes one shader more for each thing that was left out:
+/// out, which nodes are not in it, which pictures are read by arithmetic, and in its comment what `remarks` say. It makes one shader more for each thing that was left out:
 /// some milliseconds each. In a shader of more than 192 KiB, or of more than 4000 nodes, savings are not counted.
 ///
 /// # Errors
@@ -46,6 +46,8 @@ pub fn explained(
     let dropped_nodes = dropped_nodes(&material.types, &draft.fates, &draft.plan, material.index);
     let mut remarks = remarks.to_vec();
     remarks.extend(of_nodes(&dropped_nodes));
+    let slope_reads = slopes::slopes(&draft.program, material.index);
+    remarks.extend(slopes::remark(&slope_reads));
     let mut shader = draft.shader(&material, needs, &remarks)?;
     if shader.wgsl.len() <= MAX_COUNTED
         && material.types.nodes.len() <= MAX_COUNTED_NODES
@@ -57,7 +59,7 @@ pub fn explained(
         }
         shader = draft.shader(&material, needs, &remarks)?;
     }
-    Ok(Shader { dropped_nodes, ..shader })
+    Ok(Shader { dropped_nodes, slope_reads, ..shader })
 }
 
 /// What is said of nodes in the comment: it names none, since what is left out leaves no trace.

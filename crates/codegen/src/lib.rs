@@ -3,6 +3,7 @@
 //! Deterministic: the same document, needs and library give the same bytes. It opens no files and no device, and reads no
 //! node positions.
 
+mod blend;
 mod cost;
 mod emit;
 mod error;
@@ -16,6 +17,7 @@ mod names;
 mod passes;
 mod pipeline;
 pub mod reflection;
+mod slopes;
 pub mod target;
 pub mod uniforms;
 mod unread;
@@ -61,6 +63,8 @@ pub struct Shader {
     pub dropped: Vec<Dropped>,
     /// The nodes that reach the surface and are not in it, in order of id; empty where that was not asked for ([`explained()`] does).
     pub dropped_nodes: Vec<DroppedNode>,
+    /// The nodes whose pictures are read by arithmetic because they feed the height, in order of id; empty where that was not asked for.
+    pub slope_reads: Vec<SlopeRead>,
     /// The terms of shading that this shader has a part of, each with its method, in the order of the list of terms.
     pub methods: Vec<(&'static str, &'static str)>,
 }
@@ -85,6 +89,19 @@ pub struct Dropped {
     pub instructions: Option<u32>,
     /// What has to be different for it to be there.
     pub(crate) kept_by: Keep,
+}
+
+/// A node whose pictures are blended by arithmetic where their slope is seen; other sockets read them by the sampler.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SlopeRead {
+    /// The node; in a group its path.
+    pub node: NodeId,
+    /// Its label; in a group after the group's.
+    pub label: String,
+    /// Why the sampler does not do.
+    pub why: String,
+    /// Instructions of both stages beyond those of reading by the sampler, estimated as [`cost()`] does.
+    pub instructions: Option<u32>,
 }
 
 /// A node that reaches the surface and that a shader does without.

@@ -11,8 +11,11 @@ use halfvector_graph::method::Methods;
 use halfvector_graph::value::Type;
 use halfvector_shaders::{Item, ItemKind, SliceError, TokenKind, emit, generic_types, slice, tokens};
 
+use crate::blend;
 use crate::cost::{Instructions, of_function};
-use crate::passes::eval::{self, Shape};
+use crate::passes::eval;
+use crate::passes::idle::{Effects, effects};
+use crate::passes::reduce::{Reduced, reduce};
 use crate::unread::without_unread;
 
 /// Functions of the vertex stage that entry points call; the other files of `entry/` are whole shaders.
@@ -36,6 +39,8 @@ pub(crate) struct Index {
     by_name: HashMap<String, usize>,
     /// By function of the document: places of the parameters that it was written with and does without here.
     unread: HashMap<String, Vec<usize>>,
+    /// By function that reads pictures: its twin that blends their texels by arithmetic.
+    blended: HashMap<String, String>,
     compiled: Mutex<HashMap<Instance, Option<Arc<Compiled>>>>,
 }
 
@@ -78,7 +83,9 @@ pub(crate) struct Compiled {
     callable: Option<eval::Callable>,
     /// What it does, with what it calls.
     pub(crate) cost: Instructions,
-    pub(crate) shape: Shape,
+    /// The function and what it calls.
+    module: naga::Module,
+    function: naga::Handle<naga::Function>,
     /// Member names of the returned struct; empty for a plain value.
     pub(crate) members: Vec<String>,
 }
@@ -86,6 +93,16 @@ pub(crate) struct Compiled {
 impl Compiled {
     pub(crate) fn evaluate(&self, arguments: &[eval::Number]) -> Option<eval::Value> {
         self.callable.as_ref()?.call(arguments)
+    }
+
+    /// What of its arguments has an effect on what it gives.
+    pub(crate) fn effects(&self) -> Effects {
+        effects(&self.module, self.function)
+    }
+
+    /// What it gives where some of its arguments are known.
+    pub(crate) fn reduced(&self, known: &[Option<Vec<f32>>]) -> Option<Reduced> {
+        reduce(&self.module, &self.module.functions[self.function], known)
     }
 }
 
@@ -121,6 +138,7 @@ impl Clone for Index {
             items: self.items.clone(),
             by_name: self.by_name.clone(),
             unread: self.unread.clone(),
+            blended: self.blended.clone(),
             compiled: Mutex::new(compiled),
         }
     }
@@ -143,10 +161,17 @@ impl Index {
             items: Vec::new(),
             by_name: HashMap::new(),
             unread: HashMap::new(),
+            blended: HashMap::new(),
             compiled: Mutex::new(HashMap::new()),
         };
-        for file in files.iter().filter(|f| !f.path.starts_with("entry/") || f.path == TRANSFORM_FILE) {
-            index.add(file.path.into(), file.source.into())?;
+        let files = || files.iter().filter(|f| !f.path.starts_with("entry/") || f.path == TRANSFORM_FILE);
+        // An environment has no slope that anybody asks for.
+        for file in files().filter(|f| f.path != blend::FILE && !f.path.starts_with("ibl/")) {
+            index.blended.extend(blend::twins(file.source)?);
+        }
+        for file in files() {
+            let source = blend::with_twins(file.source, &index.blended)?;
+            index.add(file.path.into(), source)?;
         }
         index.inline(0);
         Ok(index)
@@ -167,8 +192,13 @@ impl Index {
         for (id, function) in sound {
             let name = &function.def.function.name;
             let (source, unread) = without_unread(&function.source, name);
+            // Checked before, as all that a document brings: there is no error here.
+            let Ok(twins) = blend::twins(&source) else { break };
+            index.unread.extend(twins.get(name).map(|twin| (twin.clone(), unread.clone())));
             index.unread.insert(name.clone(), unread);
-            if index.add(format!("custom/{id}").into(), source.into()).is_err() {
+            index.blended.extend(twins);
+            let Ok(source) = blend::with_twins(&source, &index.blended) else { break };
+            if index.add(format!("custom/{id}").into(), source.into_owned().into()).is_err() {
                 break;
             }
         }
@@ -202,9 +232,19 @@ impl Index {
         self.by_name.contains_key(name)
     }
 
+    /// The twin of a function that blends texels by arithmetic; none of one that reads no picture.
+    pub(crate) fn blended(&self, function: &str) -> Option<&str> {
+        self.blended.get(function).map(String::as_str)
+    }
+
     /// Places of the arguments that a function is not given, though its node has inputs for them: it does not read them.
     pub(crate) fn unread(&self, function: &str) -> &[usize] {
         self.unread.get(function).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether a function is one that the document brings along.
+    pub(crate) fn is_of_document(&self, function: &str) -> bool {
+        self.unread.contains_key(function)
     }
 
     /// A function by its name in the library.
@@ -315,7 +355,7 @@ impl Index {
             _ => Vec::new(),
         };
         let callable = eval::Callable::new(&module, body);
-        Some(Compiled { shape: eval::shape(body), members, callable, cost: of_function(&module, handle) })
+        Some(Compiled { members, callable, cost: of_function(&module, handle), function: handle, module })
     }
 
     /// Recognises `fn f(a: A, b: B) -> C { return <expression>; }` whose expression names nothing of the library.

@@ -70,7 +70,7 @@ pub(crate) struct Material<'s> {
 
 /// A shader before its text is written.
 pub(crate) struct Draft<'s> {
-    program: Program<'s>,
+    pub(crate) program: Program<'s>,
     pub(crate) plan: Plan,
     names: Names,
     /// What became of the nodes.

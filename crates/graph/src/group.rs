@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use crate::document::{Document, GROUP_INPUT, GROUP_OUTPUT, Graph, Group, function_of, group_of};
+use crate::document::{Document, GROUP_OUTPUT, Graph, Group, function_of, group_of};
 use crate::library::custom::read_function;
 use crate::wiring::Wiring;
 
@@ -55,11 +55,6 @@ impl Extents {
 /// The id of the node that takes a group's outputs, if it has one: the first in order of id.
 pub fn output_node(group: &Group) -> Option<&str> {
     nodes_of(&group.graph, GROUP_OUTPUT).next()
-}
-
-/// The ids of the nodes that give a group's inputs.
-pub fn input_nodes(group: &Group) -> impl Iterator<Item = &str> {
-    nodes_of(&group.graph, GROUP_INPUT)
 }
 
 fn nodes_of<'g>(graph: &'g Graph, definition: &str) -> impl Iterator<Item = &'g str> {

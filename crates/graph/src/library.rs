@@ -8,6 +8,7 @@
 mod borrowed;
 mod complaint;
 pub mod custom;
+mod explain;
 mod grammar;
 mod loops;
 mod node;

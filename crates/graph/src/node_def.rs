@@ -25,9 +25,9 @@ pub struct NodeDef {
     pub function: Function,
     /// The function for the vertex stage, when it is another one (explicit level instead of implicit derivatives).
     pub vertex_function: Option<Function>,
-    /// The functions for a height, of the fragment and of the vertex stage: they blend a picture's texels by arithmetic, since the
-    /// slope of what a sampler has blended is that of its coarse weights. They stand in only where pictures are filtered linearly.
-    pub height_functions: Option<[Function; 2]>,
+    /// Names of the inputs of whose values, or of whose pictures, the node shows the slope: a shader blends the texels behind them by
+    /// arithmetic, as it does those behind the surface's height, for the slope of what a sampler has blended is that of its coarse weights.
+    pub slopes: Vec<String>,
     /// Functions that take the node's place under a method: (term, method, function).
     pub method_functions: Vec<(String, String, Function)>,
     /// Cheaper functions for a single output: (output name, function).

@@ -17,9 +17,9 @@ use crate::document::{Document, Graph, NodeId};
 use crate::edit::Edit;
 use crate::library::Library;
 
-pub use clipboard::{Pick, copy, paste};
+pub use clipboard::{Pasted, Pick, copy, paste};
 pub use collapse::collapse;
-pub use import::{export_group, import_group};
+pub use import::{export_group, group_as_copied};
 pub use rename_socket::{GroupSide, rename_socket};
 pub use ungroup::ungroup;
 pub use wire::{can_connect, insert_on_link, remove_and_heal};

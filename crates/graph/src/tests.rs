@@ -8,6 +8,7 @@ mod group;
 mod instance;
 mod large;
 mod library;
+mod mistakes;
 mod operation;
 mod resolve;
 

@@ -172,6 +172,12 @@ impl Value {
         // Straight to f32: through f64 it could be rounded twice.
         let (nearest, exact): (f32, f64) = (digits.parse().ok()?, digits.parse().ok()?);
         let is_i32 = |x: f64| x.fract() == 0.0 && (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&x);
+        // A fraction that no f64 holds is one all the same.
+        let exact = match (exact.is_finite() && exact.fract() == 0.0 && !is_whole(digits), digits.starts_with('-')) {
+            (false, _) => exact,
+            (true, false) => exact.next_up(),
+            (true, true) => exact.next_down(),
+        };
         Some(match is_i32(exact).then(|| Value::whole(exact as i32)) {
             Some(integer @ Value::Integer(_)) => integer,
             None if is_i32(f64::from(nearest)) => Value::Decimal { nearest, exact },
@@ -200,6 +206,19 @@ impl Value {
             other => Some(other.components()?.iter().map(|x| f64::from(*x)).collect()),
         }
     }
+}
+
+/// Whether a number is whole as it is written, however many digits it has.
+fn is_whole(digits: &str) -> bool {
+    let (mantissa, exponent) = digits.split_once(['e', 'E']).unwrap_or((digits, "0"));
+    let (front, back) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits = || front.bytes().chain(back.bytes()).filter(u8::is_ascii_digit);
+    // An exponent that no i64 holds is out of all bounds: what it leaves is 0 or larger than any fraction.
+    let exponent =
+        exponent.parse::<i64>().unwrap_or(if exponent.starts_with('-') { i64::MIN / 2 } else { i64::MAX / 2 });
+    let behind = usize::try_from((back.len() as i64).saturating_sub(exponent)).unwrap_or(0);
+    let count = digits().count();
+    digits().skip(count.saturating_sub(behind)).all(|digit| digit == b'0')
 }
 
 impl Value {
@@ -236,6 +255,48 @@ impl Value {
             Value::Vec3(_) => Some(Type::Vec3),
             Value::Vec4(_) => Some(Type::Vec4),
             Value::Image(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_whole_as_it_is_written() {
+        for (digits, whole) in [
+            ("3", true),
+            ("3.0", true),
+            ("3.50e1", true),
+            ("3.50e0", false),
+            ("1e3", true),
+            ("1200e-2", true),
+            ("1200e-3", false),
+            ("-0.000", true),
+            ("0e-400", true),
+            ("1e-400", false),
+            ("1e-99999999999999999999", false),
+            ("2147483647.0000000000000000000001", false),
+            ("2147483647.0000000000000000000000", true),
+            ("-16777216.00000000000000000000000001", false),
+        ] {
+            assert_eq!(is_whole(digits), whole, "{digits}");
+            let value = Value::from_digits(digits).expect("a number");
+            assert_eq!(value.components_as(Type::I32).is_some(), whole, "{digits}: {value:?}");
+            // As a float it is the nearest.
+            let nearest: f32 = digits.parse().expect("a number");
+            assert_eq!(value.components_as(Type::F32), Some(vec![nearest]), "{digits}");
+        }
+    }
+
+    /// What is written of a fraction that no f64 holds is read as a fraction again.
+    #[test]
+    fn a_fraction_stays_one() {
+        for digits in ["1e-400", "-1e-400", "16777216.0000000000000000001", "-3.00000000000000000000001"] {
+            let Some(Value::Decimal { exact, .. }) = Value::from_digits(digits) else { panic!("{digits}") };
+            let again = Value::from_digits(&format!("{exact:?}"));
+            assert!(again.is_some_and(|value| value.components_as(Type::I32).is_none()), "{digits}: {exact:?}");
         }
     }
 }

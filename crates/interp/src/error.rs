@@ -33,10 +33,12 @@ pub enum Unsupported {
         name: String,
     },
     /// The function uses something that this interpreter does not do.
-    #[error("{place} uses {what}, which cannot run on the CPU")]
+    #[error("{place} uses {what}, which cannot run on the CPU: {instead}")]
     Feature {
         /// In the language of WGSL.
         what: String,
+        /// What to write in its place.
+        instead: &'static str,
         /// Where it is used.
         place: Place,
     },
@@ -50,6 +52,38 @@ pub enum Unsupported {
         /// Where the limit was passed.
         place: Place,
     },
+}
+
+/// What to write in the place of what is not supported: by a word that names it, the first that fits.
+const INSTEAD: [(&str, &str); 21] = [
+    ("the type i", "use i32"),
+    ("the type u", "use u32"),
+    ("the type f", "use f32"),
+    ("an f64", "use f32"),
+    ("atomic", "invocations run side by side and share nothing; give each its own result"),
+    ("workgroup memory", "invocations run side by side and share nothing; compute it in each"),
+    ("a barrier", "invocations run side by side and share nothing; compute it in each"),
+    ("subgroup", "invocations run side by side and share nothing; compute it in each"),
+    ("depth texture", "read a texture_2d<f32> and compare in the shader"),
+    ("multisampled", "read a texture_2d<f32>, resolved before"),
+    ("texture of integers", "read a texture_2d<f32> or a buffer"),
+    ("storage texture", "read a texture_2d<f32>, and give what is computed as the result"),
+    ("writing to a texture", "give it as the result, or write it to a buffer"),
+    ("external texture", "read a texture_2d<f32>"),
+    ("texture offset", "add it to the coordinates"),
+    ("not a global variable", "name the binding itself where it is read"),
+    ("runtime-sized array", "read its elements one by one"),
+    ("override constant", "write the number as a `const`"),
+    ("arrays of bindings", "use one binding for each"),
+    ("no binding", "give it @group and @binding, or make it an argument"),
+    ("scalars", "use a smaller array"),
+];
+
+impl Unsupported {
+    pub(crate) fn feature(what: String, place: Place) -> Unsupported {
+        let known = INSTEAD.iter().find(|(word, _)| what.contains(word)).map(|(_, instead)| *instead);
+        Unsupported::Feature { what, instead: known.unwrap_or("compute it another way"), place }
+    }
 }
 
 /// Why a run ended without a result.

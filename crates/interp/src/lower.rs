@@ -115,12 +115,12 @@ impl<'m> Lower<'m> {
     }
 
     fn refuse<T>(&self, what: impl Into<String>) -> Result<T> {
-        Err(Unsupported::Feature { what: what.into(), place: self.place.clone() })
+        Err(Unsupported::feature(what.into(), self.place.clone()))
     }
 
     fn refuse_at<T>(&self, what: impl Into<String>, span: Span) -> Result<T> {
         let place = Place { function: self.place.function.clone(), span: span.to_range() };
-        Err(Unsupported::Feature { what: what.into(), place })
+        Err(Unsupported::feature(what.into(), place))
     }
 
     fn too_large<T>(&self, what: &'static str) -> Result<T> {
@@ -167,7 +167,14 @@ impl<'m> Lower<'m> {
             Literal::U32(x) => self.word(x),
             Literal::I32(x) => self.word(x.cast_unsigned()),
             Literal::Bool(x) => self.word(if x { u32::MAX } else { 0 }),
-            other => return self.refuse(format!("the literal {other:?}")),
+            Literal::I64(_) => return self.refuse("the type i64"),
+            Literal::U64(_) => return self.refuse("the type u64"),
+            Literal::I16(_) => return self.refuse("the type i16"),
+            Literal::U16(_) => return self.refuse("the type u16"),
+            Literal::F16(_) => return self.refuse("the type f16"),
+            Literal::AbstractInt(_) | Literal::AbstractFloat(_) => {
+                return self.refuse("a number whose type is not chosen");
+            }
         })
     }
 
@@ -245,9 +252,9 @@ impl<'m> Lower<'m> {
             }
             Expression::Splat { size, value } => vec![self.global_value(*value)?[0]; *size as usize].into(),
             Expression::Override(_) => {
-                return self.refuse("an override constant whose value is not set (process the overrides first)");
+                return self.refuse("an override constant whose value is not set");
             }
-            other => return self.refuse(format!("the constant expression {other:?}")),
+            _ => return self.refuse("a constant that is no number, vector, matrix, array or struct of them"),
         };
         self.global_values.insert(handle, regs.clone());
         Ok(regs)

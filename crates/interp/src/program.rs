@@ -96,10 +96,8 @@ impl Program {
                     found.ok_or_else(|| Unsupported::Missing { kind: "entry point", name: name.to_string() })?;
                 let entry = &module.entry_points[index];
                 if !matches!(entry.stage, ShaderStage::Vertex | ShaderStage::Fragment | ShaderStage::Compute) {
-                    return Err(Unsupported::Feature {
-                        what: format!("the stage {:?}", entry.stage),
-                        place: Place { function: name.to_string(), span: None },
-                    });
+                    let place = Place { function: name.to_string(), span: None };
+                    return Err(Unsupported::feature("a stage of ray tracing or of mesh shaders".into(), place));
                 }
                 (&entry.function, info.get_entry_point(index), name)
             }

@@ -53,7 +53,7 @@ pub enum Derivatives<'a, F> {
     /// All are 0: textures are read at their finest level.
     Zero,
     /// Invocations come in fours: a pixel, its right neighbour, the one below, the one below that to the right. `dpdx` and
-    /// its kin are differences of the pixel's own row or column; the coarse ones and the level of `textureSample` are one for
+    /// its kin, the coarse ones included, are differences of the pixel's own row or column; the level of `textureSample` is one for
     /// all four, from the first row and the first column, as devices choose it.
     Quads,
     /// How much each input changes from one pixel to the next along x and along y: columns as those of the inputs.

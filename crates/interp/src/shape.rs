@@ -16,7 +16,7 @@ pub(crate) fn class_of(scalar: Scalar) -> Result<Class, String> {
         (ScalarKind::Float, width) => Err(format!("the type f{}", 8 * u32::from(width))),
         (ScalarKind::Sint, width) => Err(format!("the type i{}", 8 * u32::from(width))),
         (ScalarKind::Uint, width) => Err(format!("the type u{}", 8 * u32::from(width))),
-        (kind, _) => Err(format!("a number of kind {kind:?}")),
+        _ => Err("a number whose type is not chosen".into()),
     }
 }
 
@@ -81,7 +81,7 @@ fn refused(inner: &TypeInner) -> String {
         TypeInner::AccelerationStructure { .. } | TypeInner::RayQuery { .. } => "ray queries".into(),
         TypeInner::BindingArray { .. } => "arrays of bindings".into(),
         TypeInner::CooperativeMatrix { .. } => "cooperative matrices".into(),
-        other => format!("a value of the type {other:?}"),
+        _ => "a value that is not made of scalars".into(),
     }
 }
 

@@ -8,5 +8,5 @@ mod palette;
 
 pub use difference::{Difference, Scores, difference, scores};
 pub use flip::{FLIP_PIXELS_PER_DEGREE, Flip, FlipOptions, flip_hdr, flip_ldr, flip_of_noise};
-pub use noise::{CleanSquares, NoisyError, noisy_error};
+pub use noise::{Beyond, CleanSquares, NoisyError, beyond_noise, noisy_error, surroundings};
 pub use palette::magma;

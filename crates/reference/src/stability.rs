@@ -8,7 +8,8 @@
 //! |f32(x) - f64(x)| > 8 max |f64(x') - f64(x)| + 1e-3 max(|f64(x)|, rms f64),    x' within 2 ulp of x
 //! ```
 //!
-//! or where f32(x) is not finite and f64(x) is. Of f16 the tolerance is 8e-3, and x and its ulps are f16's. A node that is only handed
+//! or where f32(x) is not finite and f64(x) is. The largest change is looked for at the ends of that way, and where that would not excuse
+//! an error at 32 places between. Of f16 the tolerance is 8e-3, and x and its ulps are f16's. A node that is only handed
 //! what a node before it spoiled is not named: the first one is, with those behind it, which were not judged by themselves.
 //! A node whose f64(x) is no number, or infinite, where all that it is fed is finite, is unstable, too: in any arithmetic.
 //! What has no inputs but constants is computed before a shader is made; those nodes are judged as they stand in the document.

@@ -31,7 +31,9 @@ pub(crate) fn image(
     let levels = texture_levels(image, color_space);
     let (format, texels) = match (image.texels(), levels.color_space) {
         (Texels::U8(_), ColorSpace::Srgb) => (wgpu::TextureFormat::Rgba8UnormSrgb, TexelFormat::Unorm8),
-        (Texels::U8(_), ColorSpace::Linear) => (wgpu::TextureFormat::Rgba8Unorm, TexelFormat::Unorm8),
+        (Texels::U8(_), ColorSpace::Linear) if !rounds(gpu, image) => {
+            (wgpu::TextureFormat::Rgba8Unorm, TexelFormat::Unorm8)
+        }
         _ if gpu.filters_f32() => (wgpu::TextureFormat::Rgba32Float, TexelFormat::Float32),
         _ => (wgpu::TextureFormat::Rgba16Float, TexelFormat::Float16),
     };
@@ -41,6 +43,14 @@ pub(crate) fn image(
         write(gpu, &texture, level as u32, [image.width(), image.height(), 1], &bytes);
     }
     Ok(texture.create_view(&Default::default()))
+}
+
+/// Whether what is read between the texels of a linear picture of 8 bits would be rounded to 8 bits again, which shows as steps in a
+/// normal map: llvmpipe does so to save time. As floats, in four times the memory, it is read as cards read it.
+fn rounds(gpu: &Gpu, image: &Image) -> bool {
+    /// Larger pictures are left as they are: these take 64 MiB.
+    const MOST_TEXELS: u64 = 1 << 22;
+    gpu.software && gpu.filters_f32() && u64::from(image.width()) * u64::from(image.height()) <= MOST_TEXELS
 }
 
 /// A cube with one level for each cube of `levels`; each has half the size of the one before. 16-bit floats. The fourth

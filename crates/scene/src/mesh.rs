@@ -2,7 +2,7 @@
 //!
 //! Files are read in `gltf`, the built-in shapes stand in `builtin`. Nothing here knows of materials or transforms.
 
-use glam::{Mat4, Vec2, Vec3};
+use glam::{Mat4, Vec3};
 use halfvector_maps::split_tangents;
 
 mod builtin;
@@ -279,13 +279,6 @@ fn sound_tangent(tangent: [f32; 4], normal: Vec3) -> [f32; 4] {
         .filter(|t| t.cross(normal).length_squared() > 1e-6)
         .unwrap_or_else(|| normal.any_orthonormal_vector());
     [direction.x, direction.y, direction.z, handedness]
-}
-
-/// The place in a picture for a direction on the unit sphere: u = 1/2 + atan2(x, z) / (2 pi), v = acos(y) / pi, so that
-/// a picture stands upright and unmirrored when the sphere is seen from outside, its middle at +Z.
-pub fn sphere_uv(direction: Vec3) -> Vec2 {
-    let turns = direction.x.atan2(direction.z) / (2.0 * std::f32::consts::PI);
-    Vec2::new(0.5 + turns, direction.y.clamp(-1.0, 1.0).acos() / std::f32::consts::PI)
 }
 
 #[cfg(test)]

@@ -60,6 +60,8 @@ pub(crate) struct Files {
     pub(crate) also_open: Vec<u32>,
     /// Unsaved work of windows that are gone.
     pub(crate) lost: Vec<Lost>,
+    /// Whether the open work was left by another window, and its file may have been saved since.
+    pub(crate) is_recovered: bool,
     /// Whether the window may close.
     closes: bool,
     title: String,
@@ -109,6 +111,7 @@ impl Files {
             outside: None,
             also_open: Vec::new(),
             lost: Vec::new(),
+            is_recovered: false,
             closes: false,
             title: String::new(),
         };
@@ -192,7 +195,9 @@ impl Editor {
 
     fn replace_session(&mut self, session: Session) {
         self.session = session;
+        self.messages.forget();
         self.files.outside = None;
+        self.files.is_recovered = false;
         self.files.also_open.clear();
     }
 
@@ -210,6 +215,7 @@ impl Editor {
                     session.was(read);
                 }
                 self.replace_session(session);
+                self.files.is_recovered = true;
                 // First the record of this window, then the old one goes: at no time is there none.
                 self.keep();
                 self.files.order(Order::Forget(lost));
@@ -225,9 +231,9 @@ impl Editor {
             match report {
                 Report::Opened(path, Ok(read)) => {
                     let path = absolute(&path);
-                    self.messages.tell(format!("Opened {}", path.display()));
                     self.files.settings.remember(&path);
-                    self.replace_session(Session::read(read, path));
+                    self.replace_session(Session::read(read, path.clone()));
+                    self.messages.tell(format!("Opened {}", path.display()));
                 }
                 Report::Opened(path, Err(why)) => {
                     self.files.settings.recent.retain(|recent| *recent != path || path.exists());
@@ -260,6 +266,7 @@ impl Editor {
                     self.files.lost.extend(lost);
                     self.files.question.get_or_insert(Question::Lost);
                 }
+                Report::Group(path, read) => self.add_group(&path, read),
                 Report::Done(text) => self.messages.tell(text),
                 Report::Failed(why) => self.messages.fail(why),
             }
@@ -271,6 +278,7 @@ impl Editor {
         self.files.settings.remember(&path);
         self.files.outside = None;
         self.session.saved(path, what);
+        self.files.is_recovered = false;
         if let Some(next) = self.files.after_save.take() {
             // More may have been changed while it was written.
             self.ask(next);
@@ -359,10 +367,13 @@ impl Editor {
         }
     }
 
-    /// Opens a material that was dropped on the window. Models, environments and pictures belong to the panes.
+    /// Opens a material that was dropped on the window, and adds a node of each group. Models, environments and pictures belong to the panes.
     pub(crate) fn take_dropped(&mut self) {
         if let Some(path) = dropped::take(&self.context, |kind| kind == Kind::Material).into_iter().next() {
             self.ask(Next::Open(path));
+        }
+        for path in dropped::take(&self.context, |kind| kind == Kind::Group) {
+            self.files.order(Order::ReadGroup(path));
         }
     }
 
@@ -388,6 +399,6 @@ impl Editor {
     }
 }
 
-fn absolute(path: &Path) -> PathBuf {
+pub(super) fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

@@ -24,8 +24,10 @@ pub(crate) enum Command {
     Redo,
     /// The help sheet.
     Help,
-    /// Brings a part of the window to the front.
+    /// Brings a part of the window to the front and gives it the focus.
     Pane(Pane),
+    /// Gives the focus to the menu.
+    Menu,
 }
 
 /// A command with its keys; any of them does it.
@@ -85,34 +87,35 @@ pub(crate) const SHORTCUTS: &[Shortcut] = &[
         what: "This sheet",
         while_writing: false,
     },
+    Shortcut { command: Command::Menu, keys: &[alone(Key::F10)], what: "Go to the menu", while_writing: true },
     Shortcut {
         command: Command::Pane(Pane::Canvas),
         keys: &[command(Key::Num1)],
-        what: "Show the graph",
+        what: "Go to the graph",
         while_writing: true,
     },
     Shortcut {
         command: Command::Pane(Pane::Viewport),
         keys: &[command(Key::Num2)],
-        what: "Show the viewport",
+        what: "Go to the viewport",
         while_writing: true,
     },
     Shortcut {
         command: Command::Pane(Pane::Inspector),
         keys: &[command(Key::Num3)],
-        what: "Show the inspector",
+        what: "Go to the inspector: the values of what is selected",
         while_writing: true,
     },
     Shortcut {
         command: Command::Pane(Pane::Code),
         keys: &[command(Key::Num4)],
-        what: "Show the code",
+        what: "Go to the code",
         while_writing: true,
     },
     Shortcut {
         command: Command::Pane(Pane::Problems),
         keys: &[command(Key::Num5)],
-        what: "Show the problems",
+        what: "Go to the problems",
         while_writing: true,
     },
 ];

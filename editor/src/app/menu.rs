@@ -18,7 +18,10 @@ impl Editor {
     /// Draws the menu.
     pub(crate) fn menu(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
         egui::MenuBar::new().ui(ui, |ui| {
-            ui.menu_button("File", |ui| self.file_menu(ui, actions));
+            let file = ui.menu_button("File", |ui| self.file_menu(ui, actions)).response;
+            if std::mem::take(&mut self.wants_menu) {
+                file.request_focus();
+            }
             ui.menu_button("Edit", |ui| self.edit_menu(ui, actions));
             ui.menu_button("View", |ui| self.view_menu(ui));
             ui.menu_button("Help", |ui| {
@@ -73,6 +76,10 @@ impl Editor {
         {
             actions.push(Action::Choose(Choose::ExportFolder));
         }
+        let help = "A node of a *.group.json file, with all that the group needs";
+        if ui.button("Add a group…").on_hover_text(help).clicked() {
+            actions.push(Action::Choose(Choose::Group));
+        }
         ui.separator();
         if entry(ui, "Close", Command::Close).clicked() {
             self.ask(super::files::Next::Close);
@@ -96,7 +103,7 @@ impl Editor {
         for (verb, name, key) in Verb::ALL {
             let button = egui::Button::new(name).shortcut_text(key);
             let is_for_it = match verb {
-                Verb::Paste => true,
+                Verb::Paste | Verb::Frame | Verb::Comment => true,
                 Verb::Connect | Verb::DeleteAndHeal => has_selected,
                 _ => has_chosen,
             };
@@ -170,7 +177,11 @@ impl Editor {
             Command::Undo => actions.push(Action::Undo),
             Command::Redo => actions.push(Action::Redo),
             Command::Help => self.files.question = Some(Question::Keys),
-            Command::Pane(pane) => layout::show(&mut self.tree, pane),
+            Command::Pane(pane) => {
+                layout::show(&mut self.tree, pane);
+                self.panes.focus = Some(pane);
+            }
+            Command::Menu => self.wants_menu = true,
         }
     }
 

@@ -54,7 +54,7 @@ impl Editor {
             ui.set_width(460.0);
             match question {
                 Question::Unsaved(next) => answer = self.ask_unsaved(ui, next),
-                Question::Overwrite(path) => answer = ask_overwrite(ui, path),
+                Question::Overwrite(path) => answer = ask_overwrite(ui, path, self.files.is_recovered),
                 Question::Replace(path) => answer = ask_replace(ui, path),
                 Question::Lost => answer = self.ask_lost(ui),
                 Question::Keys => answer = crate::app::sheet::keys(ui).then_some(Answer::Cancel),
@@ -138,7 +138,7 @@ impl Editor {
             ui.separator();
             ui.horizontal(|ui| {
                 ui.vertical(|ui| {
-                    ui.set_width(280.0);
+                    ui.set_width(300.0);
                     ui.strong(&lost.record.name);
                     let file = lost.record.file.as_ref().map(|file| file.display().to_string());
                     ui.add(
@@ -150,15 +150,21 @@ impl Editor {
                     let more = lost.changes.len().saturating_sub(CHANGES_SHOWN);
                     if more > 0 {
                         let rest = lost.changes[CHANGES_SHOWN..].join("\n");
-                        ui.label(egui::RichText::new(format!("and {more} more changes")).small()).on_hover_text(rest);
+                        ui.label(
+                            egui::RichText::new(format!("and {more} more change{}", if more == 1 { "" } else { "s" }))
+                                .small(),
+                        )
+                        .on_hover_text(rest);
                     }
                 });
-                if ui.button("Recover").on_hover_text("Open it here, not saved yet").clicked() {
-                    answer = Some(Answer::Recover(place));
-                }
-                if ui.button("Discard").on_hover_text("It is lost for good").clicked() {
-                    answer = Some(Answer::Forget(place));
-                }
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    if ui.button("Discard").on_hover_text("It is lost for good").clicked() {
+                        answer = Some(Answer::Forget(place));
+                    }
+                    if ui.button("Recover").on_hover_text("Open it here, not saved yet").clicked() {
+                        answer = Some(Answer::Recover(place));
+                    }
+                });
             });
         }
         answer.or(buttons(ui, &[("Later", "The File menu offers it again, and the next start", Answer::Later)]))
@@ -207,9 +213,13 @@ impl Editor {
     fn show_outside(&mut self, ui: &mut egui::Ui) {
         let Some(outside) = &self.files.outside else { return };
         let (can_reload, is_shown) = (outside.read.is_ok(), outside.is_shown);
+        let changed = match self.files.is_recovered {
+            true => "The file was changed or saved after this work was left",
+            false => "The file was changed by another program",
+        };
         let text = match &outside.read {
-            Ok(_) => "The file was changed by another program.".to_owned(),
-            Err(why) => format!("The file was changed by another program and cannot be read: {why}"),
+            Ok(_) => format!("{changed}."),
+            Err(why) => format!("{changed} and cannot be read: {why}"),
         };
         let (mut reload, mut keep, mut show) = (false, false, is_shown);
         strip(ui, "outside", &text, |ui| {
@@ -244,9 +254,13 @@ impl Editor {
     }
 }
 
-fn ask_overwrite(ui: &mut egui::Ui, path: &std::path::Path) -> Option<Answer> {
-    ui.heading("Write over changes of another program?");
-    ui.label(format!("{} was changed since it was opened here.", path.display()));
+fn ask_overwrite(ui: &mut egui::Ui, path: &std::path::Path, is_recovered: bool) -> Option<Answer> {
+    let [heading, changed] = match is_recovered {
+        true => ["Write over what was saved since?", "was changed or saved after this work was left"],
+        false => ["Write over changes of another program?", "was changed since it was opened here"],
+    };
+    ui.heading(heading);
+    ui.label(format!("{} {changed}.", path.display()));
     buttons(
         ui,
         &[

@@ -48,6 +48,11 @@ impl Messages {
         self.last = Some(Message { text, is_error: true, since: Instant::now() });
     }
 
+    /// Forgets what was told last of another material; errors stay.
+    pub(crate) fn forget(&mut self) {
+        self.last.take_if(|message| !message.is_error);
+    }
+
     /// Draws the status line.
     pub(crate) fn show(&mut self, ui: &mut egui::Ui, session: &Session) {
         ui.horizontal(|ui| {
@@ -60,7 +65,8 @@ impl Messages {
                 ui.weak(name).on_hover_text(session.file().map(|file| file.display().to_string()).unwrap_or_default());
             }
             ui.separator();
-            ui.weak(format!("{} nodes", session.graph().nodes.len()));
+            let count = session.graph().nodes.len();
+            ui.weak(format!("{count} node{}", if count == 1 { "" } else { "s" }));
             if !self.errors.is_empty() {
                 ui.separator();
                 let count = self.errors.len();

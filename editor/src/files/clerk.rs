@@ -12,7 +12,9 @@ use std::time::{Duration, SystemTime};
 
 use eframe::egui;
 use halfvector_graph::document::Document;
-use halfvector_graph::file::{FileError, Loaded, instance_to_json, replace, to_json};
+use halfvector_graph::file::{
+    FileError, GroupFile, Loaded, instance_to_json, load_group, replace, save_group, to_json,
+};
 
 use crate::files::record::{Desk, Lost, Record};
 use crate::files::settings::Settings;
@@ -60,6 +62,15 @@ pub(crate) enum Order {
     Forget(Lost),
     /// Write the settings: as they were when this window last wrote or read them, and as they are.
     Remember(Box<[Settings; 2]>),
+    /// Read a group.
+    ReadGroup(PathBuf),
+    /// Write a group.
+    SaveGroup {
+        /// Where to.
+        path: PathBuf,
+        /// What.
+        group: Box<GroupFile>,
+    },
     /// Write files into a folder.
     Export {
         /// The folder.
@@ -84,6 +95,8 @@ pub(crate) enum Report {
     AlsoOpen(Vec<u32>),
     /// Unsaved work of windows that are gone.
     Lost(Vec<Lost>),
+    /// A group was read, or not.
+    Group(PathBuf, Result<GroupFile, String>),
     /// Something was done, for the status line.
     Done(String),
     /// Something failed, for the status line.
@@ -294,6 +307,14 @@ impl Room {
                     self.tell(Report::Failed(format!("settings could not be kept in {}: {error}", folder.display())));
                 }
             }
+            Order::ReadGroup(path) => {
+                let read = load_group(&path).map_err(|error| error.to_string());
+                self.tell(Report::Group(path, read));
+            }
+            Order::SaveGroup { path, group } => self.tell(match save_group(&path, &group) {
+                Ok(()) => Report::Done(format!("Saved the group {}", path.display())),
+                Err(error) => Report::Failed(error.to_string()),
+            }),
             Order::Export { folder, files } => self.tell(export(&folder, &files)),
         }
     }

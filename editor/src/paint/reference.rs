@@ -51,11 +51,6 @@ pub(super) fn render(easels: &mut [Easel; 2], requests: &[Request], stale: &Stal
                 return;
             }
             let found = reference.picture();
-            let (mut noise, mut light) = (0.0, 0.0);
-            for (pixel, error) in found.pixels.iter().zip(&found.standard_error) {
-                noise += error.iter().sum::<f64>();
-                light += pixel[..3].iter().sum::<f64>();
-            }
             let picture = Picture {
                 width: found.width,
                 height: found.height,
@@ -74,8 +69,8 @@ pub(super) fn render(easels: &mut [Easel; 2], requests: &[Request], stale: &Stal
                     compiled: 0,
                     noise: Some(Noise {
                         samples: found.samples,
-                        share: if light > 0.0 { noise / light } else { 0.0 },
-                        of_pixels: found.standard_error.into(),
+                        share: found.noise(),
+                        of_pixels: found.standard_error.map(Into::into),
                         faults: reference.faults().into(),
                     }),
                 }),

@@ -49,6 +49,7 @@ use hit::Hit;
 pub(crate) use keys::Verb;
 use menus::Meant;
 use notes::NoteId;
+use picked::Chosen;
 use sheet::{Card, Sheet};
 use view::{Lens, View};
 
@@ -169,6 +170,33 @@ impl Canvas {
         self.wanted = vec![node];
     }
 
+    /// The place of the graph in the middle of what is seen, on the grid.
+    pub(crate) fn middle(&self) -> [f32; 2] {
+        self.view.map_or([0.0; 2], |view| view::to_grid(view.center).into())
+    }
+
+    /// What cannot be seen well in the graph as it was drawn last, in words: a wire that runs behind a card which it has nothing to do with, a
+    /// card on another one.
+    pub(crate) fn tangles(&self) -> Vec<String> {
+        let Some(Sheet { cards, wires, .. }) = &self.sheet else { return Vec::new() };
+        let mut found = Vec::new();
+        let mut points = Vec::new();
+        for wire in wires {
+            let [from, to] = [wire.from, wire.to].map(|(card, row)| cards[card].socket(&cards[card].rows[row]));
+            wire::curve(from, to, 1.0, &mut points);
+            for (i, card) in cards.iter().enumerate().filter(|(i, _)| *i != wire.from.0 && *i != wire.to.0) {
+                if wire::behind(&points, card.rect()) > 0 {
+                    found.push(format!("{} to {} behind {}", wire.link.from, wire.link.to, cards[i].id));
+                }
+            }
+        }
+        for (i, card) in cards.iter().enumerate() {
+            let on = cards[..i].iter().filter(|other| other.rect().intersects(card.rect()));
+            found.extend(on.map(|other| format!("{} on {}", card.id, other.id)));
+        }
+        found
+    }
+
     /// Does something with the selected nodes when the canvas is drawn next.
     pub(crate) fn ask(&mut self, verb: Verb) {
         self.asked.push(verb);
@@ -247,8 +275,7 @@ impl Canvas {
             detail: Detail::of(desk.lens),
             takes: takes.as_ref().map(|takes| takes as &dyn Fn(&Card, &sheet::Row) -> bool),
         };
-        self.paint(&brush, &sheet, hovered);
-        pictures(ui, &brush, &desk, &sheet, thumbnails);
+        self.paint(&brush, &sheet, hovered, |brush, card| picture(ui, brush, session, card, thumbnails));
         if let Some(socket) = self.announce(ui, &mut desk, &sheet) {
             self.connect(ui, &mut desk, &sheet, Some(socket));
         }
@@ -274,8 +301,7 @@ impl Canvas {
         let wanted = std::mem::take(&mut self.wanted);
         let cards = wanted.iter().filter_map(|id| sheet.card(id));
         if let (Some(rect), Some(view)) = (Sheet::bounds(cards), self.view) {
-            let room = View::showing(rect, pane).zoom;
-            return View { center: rect.center(), zoom: view.zoom.max(READABLE).min(room.max(READABLE)) };
+            return seen_whole(rect, Lens { pane, view });
         }
         match (self.view, self.fitted) {
             (Some(view), Some((fitted, size))) if view == fitted && size != pane.size() => self.whole(sheet, pane),
@@ -301,7 +327,7 @@ impl Canvas {
         };
     }
 
-    fn paint(&self, brush: &Brush<'_>, sheet: &Sheet, hovered: Hit) {
+    fn paint(&self, brush: &Brush<'_>, sheet: &Sheet, hovered: Hit, mut picture: impl FnMut(&Brush<'_>, &Card)) {
         brush.notes(sheet, &self.picked);
         let lifted = self.gesture.lifted();
         let hovered_wire = match hovered {
@@ -314,6 +340,8 @@ impl Canvas {
             for (i, card) in sheet.cards.iter().enumerate() {
                 if card.is_selected == selected && card.rect().intersects(seen) {
                     brush.card(card, hovered.card() == Some(i));
+                    // With its card, so that it lies below what lies on that.
+                    picture(brush, card);
                 }
             }
         }
@@ -326,11 +354,12 @@ impl Canvas {
     }
 
     /// Tells screen readers what is seen, and does what they ask for. Returns the socket that is to be joined with another one.
-    fn announce(&self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) -> Option<(SocketRef, sheet::Side)> {
+    fn announce(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) -> Option<(SocketRef, sheet::Side)> {
         use egui::accesskit::{Action as Asked, Role};
         let context = ui.ctx();
         let lens = desk.lens;
         let mut pressed = None;
+        let is_asked = |id: Id| ui.input(|input| input.has_accesskit_action_request(id, Asked::Click));
         let tell =
             |id: Id, rect: Rect, role: Role, label: &dyn Fn() -> String, value: Option<String>, is_selected: bool| {
                 let told = context.accesskit_node_builder(id, |node| {
@@ -355,8 +384,11 @@ impl Canvas {
             let is_picked = self.picked.contains(&note.id);
             let id = Id::new(("graph note", note.kind(), &note.id));
             tell(id, lens.rect_to_screen(title), Role::ListItem, &label, None, is_picked);
+            if is_asked(id) {
+                self.choose_note(desk, note.id.clone());
+            }
         }
-        for card in sheet.cards.iter().filter(|card| card.rect().intersects(lens.seen())) {
+        for (i, card) in sheet.cards.iter().enumerate().filter(|(_, card)| card.rect().intersects(lens.seen())) {
             let id = Id::new(("graph node", &card.id));
             let label = || format!("Node {}", card.title);
             let header = Rect::from_min_size(card.rect().min, vec2(card.size.x, sheet::HEADER.min(card.size.y)));
@@ -365,14 +397,17 @@ impl Canvas {
                 // Nobody listens.
                 return None;
             }
-            if ui.input(|input| input.has_accesskit_action_request(id, Asked::Click)) {
-                desk.actions.push(Action::Select(vec![card.id.clone()]));
+            if is_asked(id) {
+                self.choose_only(desk, Chosen { nodes: BTreeSet::from([card.id.clone()]), ..Chosen::default() });
             }
             if card.has_picture() {
                 let id = Id::new(("graph toggle", &card.id));
                 let rect = Rect::from_center_size(lens.to_screen(card.toggle()), vec2(14.0, 14.0));
                 let label = || format!("Picture of {}", card.title);
                 tell(id, rect, Role::Button, &label, None, card.picture().is_some());
+                if is_asked(id) {
+                    gesture::switch(&mut self.unfolded.pictures, &card.id);
+                }
             }
             for row in card.rows.iter().filter(|row| row.has_socket()) {
                 let side = if row.side == sheet::Side::Output { "Output" } else { "Input" };
@@ -380,15 +415,18 @@ impl Canvas {
                 let center = lens.to_screen(card.socket(row));
                 let rect = Rect::from_center_size(center, vec2(10.0, 10.0));
                 tell(id, rect, Role::Button, &|| format!("{side} {} of {}", row.name, card.title), None, false);
-                if ui.input(|input| input.has_accesskit_action_request(id, Asked::Click)) {
+                if is_asked(id) {
                     pressed = Some((SocketRef::new(&card.id, &row.name), row.side));
                 }
             }
-            for row in card.rows.iter().filter(|row| row.field.is_editable()) {
+            for (place, row) in card.rows.iter().enumerate().filter(|(_, row)| row.field.is_editable()) {
                 if let Some(rect) = card.field(row) {
                     let id = Id::new(("graph value", &card.id, &row.name));
                     let label = || format!("Value {} of {}", row.name, card.title);
                     tell(id, lens.rect_to_screen(rect), Role::SpinButton, &label, Some(row.field.text()), false);
+                    if is_asked(id) {
+                        self.edit_field(desk, sheet, i, place);
+                    }
                 }
             }
         }
@@ -418,7 +456,7 @@ impl Canvas {
             .new_child(egui::UiBuilder::new().max_rect(rect).layout(egui::Layout::left_to_right(egui::Align::Center)));
         ui.spacing_mut().item_spacing.x = 4.0;
         if ui.button("Add").on_hover_text("Add a node (Space)").clicked() {
-            let at = desk.lens.to_canvas(desk.lens.pane.center());
+            let at = sheet.free_place(desk.lens.pane_center());
             let below = pos2(rect.left(), rect.bottom() + 4.0);
             self.open_palette(desk, below, Purpose { at, ..Purpose::default() });
         }
@@ -451,25 +489,25 @@ impl Canvas {
     }
 }
 
+/// The view that shows a rectangle in the middle, so that it can be read.
+fn seen_whole(rect: Rect, lens: Lens) -> View {
+    let room = View::showing(rect, lens.pane).zoom;
+    View { center: rect.center(), zoom: lens.view.zoom.max(READABLE).min(room.max(READABLE)) }
+}
+
 /// The part of the pane that the buttons leave free.
 fn below_bar(pane: Rect) -> Rect {
     pane.with_min_y(pane.top() + 28.0)
 }
 
-/// Shows what nodes give, on the cards that are unfolded for it.
-fn pictures(ui: &mut egui::Ui, brush: &Brush<'_>, desk: &Desk<'_>, sheet: &Sheet, thumbnails: &mut Thumbnails) {
-    if brush.detail == Detail::Blocks {
-        return;
-    }
-    let seen = desk.lens.seen();
-    for card in sheet.cards.iter().filter(|card| card.rect().intersects(seen)) {
-        let output = card.rows.iter().find(|row| row.side == sheet::Side::Output);
-        if let (Some(rect), Some(output)) = (card.picture(), output) {
-            let rect = desk.lens.rect_to_screen(rect);
-            let mut ui = ui.new_child(egui::UiBuilder::new().id_salt(("picture", &card.id)).max_rect(rect));
-            ui.set_clip_rect(desk.lens.pane.intersect(ui.clip_rect()));
-            thumbnails.show(&mut ui, desk.session, &card.id, &output.name, rect.width());
-        }
+/// Shows what a node gives, on its card when that is unfolded for it.
+fn picture(ui: &mut egui::Ui, brush: &Brush<'_>, session: &Session, card: &Card, thumbnails: &mut Thumbnails) {
+    let output = card.rows.iter().find(|row| row.side == sheet::Side::Output);
+    if let (Some(rect), Some(output)) = (card.picture().filter(|_| brush.detail != Detail::Blocks), output) {
+        let rect = brush.lens.rect_to_screen(rect);
+        let mut ui = ui.new_child(egui::UiBuilder::new().id_salt(("picture", &card.id)).max_rect(rect));
+        ui.set_clip_rect(brush.lens.pane.intersect(ui.clip_rect()));
+        thumbnails.show(&mut ui, session, &card.id, &output.name, rect.width());
     }
 }
 

@@ -7,6 +7,7 @@
 /// - normal: unit normal [context world_normal]
 /// - position: the point [context world_position]
 /// - return: the curvature [1/m]
+/// @slope normal
 fn node_geometry_curvature(normal: vec3f, position: vec3f) -> f32 {
     let p_x = dpdx(position);
     let p_y = dpdy(position);

@@ -9,6 +9,7 @@
 /// - normal: unit normal [context world_normal]
 /// - position: the point [context world_position]
 /// - return: unit normal in world space
+/// @slope height
 fn node_textures_bump(height: f32, strength: f32, normal: vec3f, position: vec3f) -> vec3f {
     let p_x = dpdx(position);
     let p_y = dpdy(position);

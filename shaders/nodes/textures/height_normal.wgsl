@@ -8,6 +8,7 @@
 /// - uv: where to read; (0,0) is the top left [context uv0]
 /// - depth: height between black and white, in units of the picture's edge [0.05; 0..0.5]
 /// - return: a colour of a normal map
+/// @slope image
 fn node_textures_height_normal(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f, depth: f32) -> vec3f {
     // Never 0: a texture has at most 2^15 texels a side.
     let reach = max(1.0 / vec2f(textureDimensions(image)), 0.5 * (abs(dpdx(uv)) + abs(dpdy(uv))));

@@ -19,7 +19,6 @@ struct ImageOutputs {
 /// - image: the picture [image srgb]
 /// - uv: where to read; (0,0) is the top left [context uv0]
 /// @vertex node_textures_image_vertex
-/// @height node_textures_image_height node_textures_image_height_vertex
 fn node_textures_image(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> ImageOutputs {
     let texel = textureSample(image, image_sampler, uv);
     return ImageOutputs(texel.rgb, texel.a, texel.r, texel.g, texel.b);
@@ -28,17 +27,5 @@ fn node_textures_image(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f
 /// The image read at its finest level: the vertex stage has no derivatives to choose another one by.
 fn node_textures_image_vertex(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> ImageOutputs {
     let texel = textureSampleLevel(image, image_sampler, uv, 0.0);
-    return ImageOutputs(texel.rgb, texel.a, texel.r, texel.g, texel.b);
-}
-
-/// The image read for a height.
-fn node_textures_image_height(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> ImageOutputs {
-    let texel = blended_levels(image, image_sampler, uv, texel_lod(image, uv));
-    return ImageOutputs(texel.rgb, texel.a, texel.r, texel.g, texel.b);
-}
-
-/// The image read for the height of a vertex, at its finest level.
-fn node_textures_image_height_vertex(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> ImageOutputs {
-    let texel = blended_texels(image, image_sampler, uv, 0u);
     return ImageOutputs(texel.rgb, texel.a, texel.r, texel.g, texel.b);
 }

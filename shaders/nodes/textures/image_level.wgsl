@@ -5,14 +5,7 @@
 /// - image: the picture [image srgb]
 /// - uv: where to read; (0,0) is the top left [context uv0]
 /// - lod: the level, between two of them a blend [0; 0..12]
-/// @height node_textures_image_level_height node_textures_image_level_height
 fn node_textures_image_level(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f, lod: f32) -> ImageOutputs {
     let texel = textureSampleLevel(image, image_sampler, uv, lod);
-    return ImageOutputs(texel.rgb, texel.a, texel.r, texel.g, texel.b);
-}
-
-/// The image read for a height.
-fn node_textures_image_level_height(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f, lod: f32) -> ImageOutputs {
-    let texel = blended_levels(image, image_sampler, uv, lod);
     return ImageOutputs(texel.rgb, texel.a, texel.r, texel.g, texel.b);
 }

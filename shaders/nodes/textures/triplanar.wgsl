@@ -47,7 +47,6 @@ fn triplanar_mapping(position: vec3f, normal: vec3f, scale: f32, sharpness: f32)
 /// - scale: repeats per metre [1; 0..10; 1/m]
 /// - sharpness: how quickly one picture takes over; held in 0..64 [4; 1..16]
 /// @vertex node_textures_triplanar_vertex
-/// @height node_textures_triplanar_height node_textures_triplanar_height_vertex
 fn node_textures_triplanar(image: texture_2d<f32>, image_sampler: sampler, position: vec3f, normal: vec3f, scale: f32, sharpness: f32) -> TriplanarOutputs {
     let map = triplanar_mapping(position, normal, scale, sharpness);
     let x = textureSample(image, image_sampler, map.uv_x);
@@ -63,26 +62,6 @@ fn node_textures_triplanar_vertex(image: texture_2d<f32>, image_sampler: sampler
     let x = textureSampleLevel(image, image_sampler, map.uv_x, 0.0);
     let y = textureSampleLevel(image, image_sampler, map.uv_y, 0.0);
     let z = textureSampleLevel(image, image_sampler, map.uv_z, 0.0);
-    let texel = x * map.weights.x + y * map.weights.y + z * map.weights.z;
-    return TriplanarOutputs(texel.rgb, texel.a);
-}
-
-/// The triplanar image read for a height.
-fn node_textures_triplanar_height(image: texture_2d<f32>, image_sampler: sampler, position: vec3f, normal: vec3f, scale: f32, sharpness: f32) -> TriplanarOutputs {
-    let map = triplanar_mapping(position, normal, scale, sharpness);
-    let x = blended_levels(image, image_sampler, map.uv_x, texel_lod(image, map.uv_x));
-    let y = blended_levels(image, image_sampler, map.uv_y, texel_lod(image, map.uv_y));
-    let z = blended_levels(image, image_sampler, map.uv_z, texel_lod(image, map.uv_z));
-    let texel = x * map.weights.x + y * map.weights.y + z * map.weights.z;
-    return TriplanarOutputs(texel.rgb, texel.a);
-}
-
-/// The triplanar image read for the height of a vertex, at its finest level.
-fn node_textures_triplanar_height_vertex(image: texture_2d<f32>, image_sampler: sampler, position: vec3f, normal: vec3f, scale: f32, sharpness: f32) -> TriplanarOutputs {
-    let map = triplanar_mapping(position, normal, scale, sharpness);
-    let x = blended_texels(image, image_sampler, map.uv_x, 0u);
-    let y = blended_texels(image, image_sampler, map.uv_y, 0u);
-    let z = blended_texels(image, image_sampler, map.uv_z, 0u);
     let texel = x * map.weights.x + y * map.weights.y + z * map.weights.z;
     return TriplanarOutputs(texel.rgb, texel.a);
 }

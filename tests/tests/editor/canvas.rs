@@ -461,18 +461,22 @@ fn a_picture_that_is_dropped_on_the_graph_is_a_node() {
     window.run_steps(2);
     let image = &document(&window).graph.nodes[id].values["image"];
     assert!(matches!(image, Value::Image(image) if image.file.ends_with("moss.png")), "{image:?}");
-    // Over the node it is its picture, also one of radiance, which is an environment elsewhere.
+    // Over the node it is its picture; one of radiance is an environment, which is told at once and changes nothing.
     let environment = window.state().stage().environment.clone();
     let sky = folder.path().join("sky.hdr");
     std::fs::write(&sky, b"no picture yet").expect("written");
-    for (at, file) in [(center(&window, "Node Image"), &sky), (slot, &other), (slot, &sky)] {
+    let card = center(&window, "Node Image");
+    for (at, file, name) in
+        [(card, &file, "bark.png"), (card, &sky, "bark.png"), (slot, &other, "moss.png"), (slot, &sky, "moss.png")]
+    {
         go(&mut window, at);
         drop_file(&mut window, file);
         window.run_steps(2);
         let image = &document(&window).graph.nodes[id].values["image"];
-        let name = file.file_name().and_then(|name| name.to_str()).expect("a name");
         assert!(matches!(image, Value::Image(image) if image.file.ends_with(name)), "{image:?}");
         assert_eq!(window.state().stage().environment, environment);
+        let is_told = window.query_all_by_label_contains("sky.hdr is an environment").next().is_some();
+        assert!(is_told || *file != sky, "{name}");
     }
     let viewport = window.get_by_label("Viewport").rect().center() + egui::vec2(0.0, 150.0);
     go(&mut window, viewport);

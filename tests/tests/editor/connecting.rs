@@ -70,6 +70,58 @@ fn what_does_not_fit_is_not_offered_and_escape_changes_nothing() {
 }
 
 #[test]
+fn the_list_begins_with_what_needs_no_conversion_and_is_near_and_ends_with_what_is_there() {
+    let mut window = by_keys();
+    window.state_mut().act(Action::Select(vec!["base_color".into()]));
+    window.step();
+    key(&mut window, NONE, egui::Key::C);
+    window.run_steps(2);
+    let height = |window: &Window, text: &str| {
+        let found = window.query_all_by_label_contains(text).map(|line| line.rect().top()).reduce(f32::min);
+        found.unwrap_or_else(|| panic!("{text} is not offered"))
+    };
+    let wired = source(&window, "surface", "base_color");
+    assert_eq!(wired.as_deref(), Some("base_color.out"));
+    write(&mut window, "surface");
+    // Words find the same lines in the order of how well they fit, so that the order is looked at without words.
+    key(&mut window, egui::Modifiers::COMMAND, egui::Key::A);
+    window.key_press(egui::Key::Backspace);
+    window.run_steps(2);
+    let colour = height(&window, "to emission of Surface");
+    let vector = height(&window, "to normal of Surface");
+    assert!(colour.is_finite() && vector.is_finite());
+    // A number becomes a colour on its way; a colour goes as it is.
+    let (own, converted) = (height(&window, "a: from Enamel"), height(&window, "from Rust grain"));
+    assert!(own < converted, "{own} {converted}");
+    // Enter makes the first one.
+    let before = document(&window).graph.links.len();
+    key(&mut window, NONE, egui::Key::Enter);
+    assert_ne!(document(&window).graph.links.len(), before + 2);
+    key(&mut window, NONE, egui::Key::C);
+    window.run_steps(2);
+    key(&mut window, NONE, egui::Key::PageDown);
+    let there = window.query_all_by_label_contains("(take away)").map(|line| line.rect().top()).collect::<Vec<_>>();
+    let others = window.query_all_by_label_contains("to emission of Surface").map(|line| line.rect().top());
+    let others: Vec<f32> = others.collect();
+    assert!(there.iter().all(|top| others.iter().all(|other| other < top)), "{there:?}");
+}
+
+#[test]
+fn with_nothing_selected_it_says_what_to_do() {
+    let mut window = by_keys();
+    for (pressed, words) in [
+        (egui::Key::C, "Select a node to connect it. Tab goes from one to the next."),
+        (egui::Key::F2, "Select one node, frame or comment to name it."),
+        (egui::Key::Enter, "Select a node to go on from."),
+    ] {
+        key(&mut window, NONE, pressed);
+        assert!(window.query_all_by_label_contains(words).next().is_some(), "{words}");
+    }
+    key(&mut window, egui::Modifiers::COMMAND.plus(egui::Modifiers::SHIFT), egui::Key::G);
+    assert!(window.query_all_by_label_contains("No group is selected").next().is_some());
+}
+
+#[test]
 fn it_stands_in_the_menu_and_in_the_sheet_of_keys() {
     let mut window = by_keys();
     window.get_by_label("Node Rust grain").click();

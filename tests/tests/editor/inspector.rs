@@ -147,7 +147,7 @@ fn a_metal_becomes_another_one() {
     );
     harness.state_mut().act(Action::edit("Link", Edit::AddLink { link: link.clone() }));
     select(&mut harness, "metal");
-    harness.get_by_role_and_label(Role::ComboBox, "Metal").click();
+    harness.get_by_role_and_label(Role::ComboBox, "metal").click();
     harness.run_steps(3);
     harness.get_by_label("Copper").click();
     harness.run_steps(3);
@@ -168,7 +168,7 @@ fn a_conductor_takes_the_constants_of_a_metal() {
         harness.get_all_by_label(entry).last().unwrap().click();
         harness.run_steps(3);
     };
-    choose(&mut harness, "Metal", "By optical constants");
+    choose(&mut harness, "metal", "By optical constants");
     assert_eq!(document(&harness).graph.nodes["metal"].node, "optics/conductor");
     // Gold at 650 nm: it begins as what it was.
     let eta = |harness: &Harness<'_, Editor>| match value(harness, "metal", "eta") {
@@ -176,7 +176,7 @@ fn a_conductor_takes_the_constants_of_a_metal() {
         other => panic!("{other:?}"),
     };
     assert_eq!(eta(&harness), 0.156);
-    choose(&mut harness, "Eta and k of", "Copper");
+    choose(&mut harness, "eta and k of", "Copper");
     assert_eq!(eta(&harness), 0.238);
     assert!(matches!(value(&harness, "metal", "k"), Some(Value::Vec3([red, ..])) if red == 3.626));
     harness.state_mut().act(Action::Undo);
@@ -201,7 +201,7 @@ fn a_metal_without_an_input_has_no_parameter_for_it() {
     harness.state_mut().act(Action::edit("Add", Edit::Many(edits)));
     select(&mut harness, "metal");
     let before = document(&harness).clone();
-    harness.get_by_role_and_label(Role::ComboBox, "Metal").click();
+    harness.get_by_role_and_label(Role::ComboBox, "metal").click();
     harness.run_steps(3);
     harness.get_all_by_label("Gold").last().unwrap().click();
     harness.run_steps(3);

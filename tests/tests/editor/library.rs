@@ -55,9 +55,13 @@ fn a_search_finds_and_a_click_opens() {
     harness.step();
     harness.step();
     assert!(harness.query_by_label("Car paint, red").is_none());
+    harness.state_mut().act(halfvector_editor::Action::Say("Saved /tmp/old.material.json".to_owned()));
+    harness.step();
+    assert!(harness.query_by_label_contains("Saved /tmp").is_some());
     harness.get_by_label("Gold").click();
     harness.step();
     settle(&mut harness);
+    assert!(harness.query_by_label_contains("Saved /tmp").is_none(), "that was told of another material");
     let session = harness.state().session();
     assert_eq!((session.document().name.as_str(), session.file()), ("Gold", None));
     assert!(session.problems().is_empty());

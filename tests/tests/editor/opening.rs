@@ -23,8 +23,10 @@ fn the_start_material_is_shown() {
 #[test]
 fn a_file_that_is_not_there_is_told() {
     let mut harness = open(Options { document: Some("no/such.material.json".into()), ..Options::default() });
-    settle(&mut harness);
+    // At once: the message does not stay forever.
+    harness.run_steps(2);
     assert!(harness.query_by_label_contains("no/such.material.json").is_some());
+    settle(&mut harness);
 }
 
 /// The headers of the cards that are seen, and the places of their sockets.

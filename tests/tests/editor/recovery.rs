@@ -83,8 +83,19 @@ fn two_records_of_one_file_are_recovered_one_after_the_other() {
     click(&mut harness, "Recover unsaved work…");
     click(&mut harness, "Recover");
     click(&mut harness, "Cancel");
+    // The first one is saved; the second one began before that, and no other program has changed the file.
+    harness.state_mut().act(Action::Save);
+    settle(&mut harness);
     click(&mut harness, "File");
-    assert!(harness.query_by_label("Recover unsaved work…").is_some());
+    click(&mut harness, "Recover unsaved work…");
+    click(&mut harness, "Recover");
+    settle(&mut harness);
+    let strip = "The file was changed or saved after this work was left.";
+    wait_for(&mut harness, "the strip", |harness| harness.query_by_label_contains(strip).is_some());
+    assert!(harness.query_by_label_contains("another program").is_none());
+    harness.state_mut().act(Action::Save);
+    settle(&mut harness);
+    assert!(harness.query_by_label_contains("Write over what was saved since?").is_some());
 }
 
 #[test]

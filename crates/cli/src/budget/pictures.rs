@@ -80,7 +80,7 @@ impl<'s> Studio<'s> {
     /// How far a picture is from the reference.
     pub(crate) fn measure(&self, picture: &Picture) -> Measured {
         match &self.truth {
-            Some(truth) => measure(&radiance(picture), &truth.radiance(), Some(&truth.standard_error)),
+            Some(truth) => measure(&radiance(picture), &truth.radiance(), truth.standard_error.as_deref()),
             None => Measured { error: f64::INFINITY, least: 0.0, most: f64::INFINITY },
         }
     }

@@ -3,12 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use halfvector_maps::color::linear_from_srgb;
-use halfvector_reference::metrics::{Difference, FlipOptions, difference, flip_hdr, flip_ldr, flip_of_noise, magma};
+use halfvector_reference::metrics::{
+    Beyond, Difference, FlipOptions, beyond_noise, difference, flip_hdr, flip_ldr, flip_of_noise, magma, surroundings,
+};
 use image::{ExtendedColorType, ImageEncoder};
 
 use crate::failure::Failure;
 use crate::output::{check_place, note, print, print_json, write_file};
 use crate::picture_file::{Noise, PictureFormat, noise, parse_picture_file};
+use crate::reference::roughness;
 
 /// Says how different a picture is from a reference: FLIP, root mean square, relative error.
 ///
@@ -16,9 +19,11 @@ use crate::picture_file::{Noise, PictureFormat, noise, parse_picture_file};
 /// turns, 0 to 1: of display values (Andersson et al. 2020), or of radiance at all exposures at which the reference shows
 /// anything (2021). RMSE and relative error are of the numbers in the files: sRGB codes over 255, or radiance.
 ///
-/// An .exr of --backend reference holds the standard error of each pixel: what noise adds is then taken off RMSE and relative
-/// error, and it is said what FLIP such noise alone has: a mean no larger than that shows no difference. Two of the same --seed
-/// have noise in common; nothing is taken off then, and it is said.
+/// An .exr of --backend reference holds the standard error of each pixel. RMSE and relative error are then what noise does not
+/// explain, 0 where chance may explain all, with a bound that they hardly pass and the figure as it is with noise. (Relative is then
+/// to the mean of the pixels around: a noisy pixel does not tell how bright it is.) The mean difference has its standard error, and it
+/// is said what FLIP such noise alone has: a mean no larger than that shows no difference. Two of the same --seed have noise in
+/// common, and of a single path noise is not known: nothing is taken off then, and it is said.
 ///
 /// FLIP of radiance looks at negative numbers as black, as a display shows them. (NVIDIA's program sends them through its tone
 /// curve, where large ones become white.) Largest, RMSE and relative error count them as they are.
@@ -116,7 +121,21 @@ pub(crate) fn run(args: &CompareArgs) -> Result<u8, Failure> {
             ));
         }
     }
-    let noise = if shared_seed.is_some() { None } else { combined(&test, &reference) };
+    let mut is_unknown = false;
+    for (path, pixels) in [(&args.picture, &test), (&args.reference, &reference)] {
+        let Some(own) = &pixels.noise else { continue };
+        if own.errors.is_none() {
+            is_unknown = true;
+            note(format_args!(
+                "note: {}: drawn with one path for each pixel: its noise is not known, and nothing is taken off; draw it with --samples 16 \
+                 or more",
+                path.display()
+            ));
+        } else if let Some(rough) = own.samples.and_then(roughness) {
+            note(format_args!("note: {}: {rough}", path.display()));
+        }
+    }
+    let noise = if shared_seed.is_some() || is_unknown { None } else { combined(&test, &reference) };
     let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len() as f64;
     let flip = Flip {
         kind: if test.displayed { "ldr" } else { "hdr" },
@@ -127,9 +146,9 @@ pub(crate) fn run(args: &CompareArgs) -> Result<u8, Failure> {
         }),
     };
     let numbers = Numbers {
-        difference: difference(&test.numbers, &reference.numbers, noise.as_deref()),
+        difference: difference(&test.numbers, &reference.numbers, None),
         is_black: reference.numbers.as_flattened().iter().sum::<f64>() <= 0.0,
-        noise: noise.map(|noise| rms(noise.as_flattened())),
+        noise: noise.map(|noise| KnownNoise::of(&test, &reference, &noise)),
         shared_seed,
         alpha: AlphaDifference::of(&test.alpha, &reference.alpha),
     };
@@ -158,11 +177,32 @@ struct Numbers {
     difference: Difference,
     /// Nothing is relative to a reference without light.
     is_black: bool,
-    /// Root mean square of the standard errors of the difference.
-    noise: Option<f64>,
+    noise: Option<KnownNoise>,
     /// What both pictures' noise was drawn with, where that is the same.
     shared_seed: Option<u64>,
     alpha: AlphaDifference,
+}
+
+/// What is known of the noise of a difference.
+struct KnownNoise {
+    /// Root mean square of the standard errors.
+    rms: f64,
+    rmse: Beyond,
+    relative: Beyond,
+    /// Standard error of the mean difference, relative as it is.
+    of_mean: f64,
+}
+
+impl KnownNoise {
+    fn of(test: &Pixels, reference: &Pixels, noise: &[[f64; 3]]) -> KnownNoise {
+        let smooth = reference.noise.as_ref().map(|_| surroundings(&reference.numbers, reference.width));
+        let brightness = smooth.as_deref().unwrap_or(&reference.numbers);
+        let [rmse, relative] = beyond_noise(&test.numbers, &reference.numbers, noise, brightness);
+        let variance: f64 = noise.as_flattened().iter().map(|s| s * s).sum();
+        let light: f64 = reference.numbers.as_flattened().iter().sum();
+        let of_mean = if light > 0.0 { variance.sqrt() / light } else { 0.0 };
+        KnownNoise { rms: (variance / (3 * noise.len().max(1)) as f64).sqrt(), rmse, relative, of_mean }
+    }
 }
 
 /// How alpha differs, which the other figures do not look at.
@@ -190,33 +230,43 @@ fn shared_seed(test: &Pixels, reference: &Pixels) -> Option<u64> {
 
 /// The standard error of the difference of two pictures of independent noise, as far as their files know it.
 fn combined(test: &Pixels, reference: &Pixels) -> Option<Vec<[f64; 3]>> {
-    let errors = |pixels: &Pixels| pixels.noise.as_ref().map(|noise| noise.errors.clone());
+    let errors = |pixels: &Pixels| pixels.noise.as_ref()?.errors.clone();
     match (errors(test), errors(reference)) {
         (Some(a), Some(b)) => Some(a.iter().zip(&b).map(|(a, b)| std::array::from_fn(|c| a[c].hypot(b[c]))).collect()),
         (one, other) => one.or(other),
     }
 }
 
-fn rms(numbers: &[f64]) -> f64 {
-    (numbers.iter().map(|x| x * x).sum::<f64>() / numbers.len() as f64).sqrt()
-}
-
 fn text(flip: &Flip, numbers: &Numbers) -> String {
     let Difference { rmse, relative, mean_relative, largest } = numbers.difference;
     let relative_to_light =
         |text: String| if numbers.is_black { "none: the reference is black".to_owned() } else { text };
-    let mean = relative_to_light(format!("{:+.4} %", 100.0 * mean_relative));
-    let relative = relative_to_light(format!("{relative:.6e}"));
+    let figure = |plain: f64, beyond: Option<Beyond>| match beyond {
+        None => format!("{plain:.6e}"),
+        Some(Beyond { error, at_most, with_noise }) if error > 0.0 => {
+            format!("{error:.6e} beyond noise, at most {at_most:.3e}; {with_noise:.3e} with it")
+        }
+        Some(Beyond { at_most, with_noise, .. }) => {
+            format!("at most {at_most:.6e}: chance may explain all of {with_noise:.3e}")
+        }
+    };
+    let known = numbers.noise.as_ref();
+    let of_mean = known.map(|noise| format!(", of noise +-{:.4} %", 100.0 * noise.of_mean)).unwrap_or_default();
+    let mean = relative_to_light(format!("{:+.4} %{of_mean}", 100.0 * mean_relative));
+    let relative = relative_to_light(figure(relative, known.map(|noise| noise.relative)));
+    let rmse = figure(rmse, known.map(|noise| noise.rmse));
     let mut text = format!(
-        "FLIP ({})       mean {:.6}  largest {:.6}\nRMSE             {rmse:.6e}\nrelative error   {relative}\nmean difference  \
+        "FLIP ({})       mean {:.6}  largest {:.6}\nRMSE             {rmse}\nrelative error   {relative}\nmean difference  \
          {mean}\nlargest          {largest:.6e}",
         flip.kind.to_uppercase(),
         flip.mean,
         flip.largest,
     );
-    if let (Some(noise), Some(of_noise)) = (numbers.noise, flip.of_noise) {
+    if let (Some(noise), Some(of_noise)) = (known, flip.of_noise) {
         text += &format!(
-            "\nstandard error   {noise:.6e}, taken off RMSE and relative error\nFLIP of noise    mean {of_noise:.6}"
+            "\nstandard error   {:.6e}, taken off RMSE and relative error\nFLIP of noise    mean {of_noise:.6}: FLIP no larger shows no \
+             difference",
+            noise.rms
         );
     }
     let AlphaDifference { pixels, largest } = numbers.alpha;
@@ -230,15 +280,24 @@ fn text(flip: &Flip, numbers: &Numbers) -> String {
 
 fn json(flip: &Flip, numbers: &Numbers, pixels: &Pixels) -> serde_json::Value {
     let Difference { rmse, relative, mean_relative, largest } = numbers.difference;
+    let relative_to_light = |x: f64| (!numbers.is_black).then_some(x);
+    let known = numbers.noise.as_ref();
+    let error = |plain: f64, beyond: Option<Beyond>| beyond.map_or(plain, |beyond| beyond.error);
+    let at_most = |beyond: fn(&KnownNoise) -> Beyond| known.map(|noise| beyond(noise).at_most);
     serde_json::json!({
         "width": pixels.width,
         "height": pixels.height,
         "flip": {"kind": flip.kind, "mean": flip.mean, "largest": flip.largest, "of_noise": flip.of_noise},
-        "rmse": rmse,
-        "relative": (!numbers.is_black).then_some(relative),
-        "mean_relative": (!numbers.is_black).then_some(mean_relative),
+        "rmse": error(rmse, known.map(|noise| noise.rmse)),
+        "rmse_at_most": at_most(|noise| noise.rmse),
+        "rmse_with_noise": known.map(|noise| noise.rmse.with_noise),
+        "relative": relative_to_light(error(relative, known.map(|noise| noise.relative))),
+        "relative_at_most": at_most(|noise| noise.relative).and_then(relative_to_light),
+        "relative_with_noise": known.map(|noise| noise.relative.with_noise).and_then(relative_to_light),
+        "mean_relative": relative_to_light(mean_relative),
+        "mean_relative_standard_error": known.map(|noise| noise.of_mean).and_then(relative_to_light),
         "largest": largest,
-        "standard_error": numbers.noise,
+        "standard_error": known.map(|noise| noise.rms),
         "shared_seed": numbers.shared_seed,
         "alpha": {"pixels": numbers.alpha.pixels, "largest": numbers.alpha.largest},
     })
@@ -271,7 +330,7 @@ fn read(path: &Path) -> Result<Pixels, Failure> {
     }
     let noise = if format == PictureFormat::Exr { noise(path) } else { Ok(None) };
     let fits = |noise: Option<Noise>| match noise {
-        Some(noise) if noise.errors.len() != numbers.len() => {
+        Some(Noise { errors: Some(errors), .. }) if errors.len() != numbers.len() => {
             Err("its standard errors are of a picture of another size".to_owned())
         }
         noise => Ok(noise),

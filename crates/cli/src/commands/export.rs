@@ -15,7 +15,7 @@ use crate::budget::{self, Asked, Chosen};
 use crate::environment::{bake, load};
 use crate::failure::Failure;
 use crate::input::{self, Kind};
-use crate::output::{check_place, note, print_json, write_file};
+use crate::output::{check_place, note, print_json, write_files};
 
 /// Writes the shader of a material, and its bindings, parameters and vertex inputs as JSON.
 ///
@@ -30,8 +30,7 @@ pub(crate) struct ExportArgs {
     /// A material (*.material.json)
     #[arg(value_name = "DOC")]
     document: PathBuf,
-    /// The shading language, or web: one page, index.html, that draws itself with WebGPU and needs no network; or bevy: a material plug-in
-    #[arg(long, value_name = "TARGET", value_parser = parse_target)]
+    #[arg(long, value_name = "TARGET", value_parser = parse_target, help = target_help())]
     target: Wanted,
     /// The folder for the files; made when missing
     #[arg(short, long, value_name = "DIR")]
@@ -89,10 +88,9 @@ pub(crate) fn run(args: &ExportArgs) -> Result<u8, Failure> {
     };
     let paths: Vec<_> = files.iter().map(|file| args.output.join(&file.name)).collect();
     paths.iter().try_for_each(|path| check_place(path))?;
-    for (file, path) in files.iter().zip(&paths) {
-        write_file(path, &file.bytes)?;
-        note(path.display());
-    }
+    let together: Vec<_> = paths.iter().zip(&files).map(|(path, file)| (path.as_path(), &file.bytes[..])).collect();
+    write_files(&together)?;
+    paths.iter().for_each(|path| note(path.display()));
     if args.explain {
         print_json(&explanation(&shader, chosen.as_ref()))?;
     }
@@ -223,6 +221,11 @@ fn explanation(shader: &Shader, chosen: Option<&Chosen>) -> serde_json::Value {
             json!({ "node": node.node, "label": node.label, "why": node.why, "instructions": node.instructions })
         })
         .collect();
+    let slopes: Vec<_> = shader
+        .slope_reads
+        .iter()
+        .map(|read| json!({ "node": read.node, "label": read.label, "why": read.why, "instructions": read.instructions }))
+        .collect();
     let saved: u64 = shader.dropped_nodes.iter().filter_map(|node| node.instructions).map(u64::from).sum();
     let methods: serde_json::Map<_, _> =
         shader.methods.iter().map(|(term, method)| ((*term).to_owned(), json!(method))).collect();
@@ -231,6 +234,7 @@ fn explanation(shader: &Shader, chosen: Option<&Chosen>) -> serde_json::Value {
         "instructions_are": "what each thing alone would add to both stages, and what each node's function does, estimated on the text as `check --cost` does",
         "dropped_nodes": nodes,
         "dropped_nodes_instructions": saved,
+        "slope_reads": slopes,
         "methods": methods,
     });
     if let Ok(cost) = halfvector_codegen::cost(shader) {
@@ -248,6 +252,15 @@ fn parse_error(text: &str) -> Result<f64, String> {
         Ok(error) if error.is_finite() && error > 0.0 => Ok(error),
         _ => Err("an error is a number over 0, such as 0.05 for 5 %".to_owned()),
     }
+}
+
+fn target_help() -> String {
+    let languages: Vec<_> = TARGETS.iter().map(|target| target.name).filter(|name| *name != "bevy").collect();
+    format!(
+        "The shading language: {}; or bevy: a material plug-in; or web: one page, index.html, that draws itself with WebGPU and needs \
+         no network",
+        languages.join(", ")
+    )
 }
 
 fn parse_target(text: &str) -> Result<Wanted, String> {

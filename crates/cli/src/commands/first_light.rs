@@ -11,7 +11,7 @@ use halfvector_scene::{BuiltinMesh, MeshSource, Scene};
 use crate::backend::Runner;
 use crate::commands::{export::plain_needs, render::draw};
 use crate::failure::Failure;
-use crate::output::{note, write_file};
+use crate::output::{note, write_files};
 use crate::picture_file::{PictureFile, PictureFormat};
 
 /// Where the results go.
@@ -26,11 +26,11 @@ pub(crate) fn run() -> Result<u8, Failure> {
     let shader = halfvector_codegen::shader(&document, Library::standard(), &plain_needs(), Fold::Export)
         .map_err(|error| broken(error.to_string()))?;
     let wgsl = target("wgsl").ok_or_else(|| broken("there is no target wgsl".to_owned()))?;
-    for file in export(&shader, wgsl, "example").map_err(|error| broken(error.to_string()))? {
-        let path = folder.join(&file.name);
-        write_file(&path, &file.bytes)?;
-        note(path.display());
-    }
+    let files = export(&shader, wgsl, "example").map_err(|error| broken(error.to_string()))?;
+    let paths: Vec<_> = files.iter().map(|file| folder.join(&file.name)).collect();
+    let together: Vec<_> = paths.iter().zip(&files).map(|(path, file)| (path.as_path(), &file.bytes[..])).collect();
+    write_files(&together)?;
+    paths.iter().for_each(|path| note(path.display()));
     let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
     let scene = Scene::from_material(document, Path::new(""), &sphere).map_err(|error| broken(error.to_string()))?;
     draw(

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use halfvector_graph::library::Library;
 use halfvector_graph::method::Methods;
 use halfvector_graph::needs::ToneMap;
+use halfvector_reference::{Conductor, EnvironmentFilter};
 use halfvector_scene::{Background, Display, EnvironmentSource, Exposure, Light, MeshSource, Scene};
 
 use crate::backend::{Backend, Painter, Runner, parse_backend};
@@ -24,7 +25,9 @@ use crate::set_value::{Assignment, numbers, parse_assignment, set};
 #[command(after_help = "Examples:
   halfvector render examples/surface.material.json --set metallic=1 --set base_color=1,0.766,0.336 -o gold.png
   halfvector render examples/surface.material.json --env none --light directional:1,1,1:3 --background none -o lit.png
-  halfvector render examples/report-1-mirror.scene.json --size 800x600 --samples 64 -o mirror.exr")]
+  halfvector render examples/report-1-mirror.scene.json --size 800x600 --samples 64 -o mirror.exr
+  halfvector render examples/surface.material.json --backend reference --set metallic=1 --conductor 0.143,0.375,1.442:3.983,2.386,1.603 \
+    --method v=separable --method compensation=none --env map.exr --env-filter vertex-rows --samples 256 -o as-mitsuba.exr")]
 pub(crate) struct RenderArgs {
     /// A material (*.material.json), scene (*.scene.json) or model (.glb, .gltf)
     #[arg(value_name = "DOC|SCENE")]
@@ -75,6 +78,14 @@ pub(crate) struct RenderArgs {
     /// Of --backend reference: how often light may go from surface to surface
     #[arg(long, value_name = "N", default_value_t = 0)]
     bounces: u32,
+    /// Of --backend reference: what an equirectangular environment is between its texels: bilinear (default), box (constant within
+    /// each texel), or vertex-rows (bilinear, the first and the last row at the poles: as Mitsuba 3 reads maps)
+    #[arg(long, value_name = "NAME", value_parser = parse_filter)]
+    env_filter: Option<EnvironmentFilter>,
+    /// Of --backend reference: a measured metal's index of refraction and extinction for red, green and blue, whose exact Fresnel
+    /// reflectance stands for that of every material: gold is 0.143,0.375,1.442:3.983,2.386,1.603
+    #[arg(long, value_name = "N_R,N_G,N_B:K_R,K_G,K_B", value_parser = parse_conductor)]
+    conductor: Option<Conductor>,
 }
 
 /// Runs the command.
@@ -97,13 +108,24 @@ pub(crate) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let runner = match args.backend {
         Backend::Shader(runner) => runner,
         Backend::Reference => {
-            let RenderArgs { size, samples, seed, bounces, .. } = *args;
-            reference::draw(&scene, ReferenceOptions { size, samples, seed, bounces }, &args.output)?;
+            let RenderArgs { size, samples, seed, bounces, env_filter, conductor, .. } = *args;
+            let filter = env_filter.unwrap_or_default();
+            reference::draw(
+                &scene,
+                ReferenceOptions { size, samples, seed, bounces, filter, conductor },
+                &args.output,
+            )?;
             return Ok(0);
         }
     };
-    if args.seed != 0 || args.bounces != 0 {
-        note("note: --seed and --bounces do nothing here: they are for --backend reference");
+    let of_reference = [
+        ("--seed", args.seed != 0),
+        ("--bounces", args.bounces != 0),
+        ("--env-filter", args.env_filter.is_some()),
+        ("--conductor", args.conductor.is_some()),
+    ];
+    for (option, _) in of_reference.iter().filter(|(_, is_given)| *is_given) {
+        note(format_args!("note: {option} does nothing here: it is for --backend reference"));
     }
     if args.samples > MAX_SAMPLES {
         let why = format!("--samples {} is more than {MAX_SAMPLES}", args.samples);
@@ -242,6 +264,32 @@ fn parse_background(text: &str) -> Result<Background, String> {
             _ => Err("write env, none, or a linear colour R,G,B of numbers from 0".to_owned()),
         },
     }
+}
+
+fn parse_filter(text: &str) -> Result<EnvironmentFilter, String> {
+    match text {
+        "bilinear" => Ok(EnvironmentFilter::Bilinear),
+        "box" => Ok(EnvironmentFilter::Box),
+        "vertex-rows" => Ok(EnvironmentFilter::VertexRows),
+        _ => Err("write bilinear, box or vertex-rows".to_owned()),
+    }
+}
+
+fn parse_conductor(text: &str) -> Result<Conductor, String> {
+    /// Larger ones are mirrors, and their squares no numbers.
+    const MOST: f64 = 1e6;
+    let three = |text: &str, least: f64| -> Option<[f64; 3]> {
+        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+        numbers?.try_into().ok().filter(|all: &[f64; 3]| all.iter().all(|x| (least..=MOST).contains(x)))
+    };
+    let parsed = || {
+        let (eta, k) = text.split_once(':')?;
+        Some(Conductor { eta: three(eta, 1.0 / MOST)?, k: three(k, 0.0)? })
+    };
+    parsed().ok_or_else(|| {
+        "write N_R,N_G,N_B:K_R,K_G,K_B: three indices of refraction above 0 and three extinctions from 0, such as 0.143,0.375,1.442:3.983,2.386,1.603"
+            .to_owned()
+    })
 }
 
 /// Most samples of a pixel by the backends that take them on a grid.

@@ -49,7 +49,15 @@ fn noise_that_is_known_is_no_difference() {
     let (flip, of_noise) = (noisy["flip"]["mean"].as_f64(), noisy["flip"]["of_noise"].as_f64());
     let ratio = flip.expect("FLIP") / of_noise.expect("of noise");
     assert!((0.6..1.5).contains(&ratio), "{noisy}");
+    // One rule for all figures: noise is no error, and what it hides is bounded.
+    assert_eq!((figure("rmse"), figure("relative")), (0.0, 0.0), "{noisy}");
+    for name in ["rmse", "relative"] {
+        let [most, with] = ["at_most", "with_noise"].map(|end| figure(&format!("{name}_{end}")));
+        assert!(most > 0.0 && most < with, "{noisy}");
+    }
+    assert!(figure("mean_relative").abs() < 4.0 * figure("mean_relative_standard_error"), "{noisy}");
     let text = folder.run(&["compare", "a.exr", "b.exr"]).ends(0).stdout;
+    assert!(text.matches("chance may explain all").count() == 2, "{text}");
     assert!(text.contains("taken off RMSE") && text.contains("FLIP of noise"), "{text}");
 }
 

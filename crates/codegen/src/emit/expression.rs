@@ -7,6 +7,7 @@ use halfvector_graph::value::{Type, Wrap};
 
 use crate::CodegenError;
 use crate::emit::text::{Origin, Part, Text};
+use crate::emit::tidy::without_identities;
 use crate::emit::value;
 use crate::ir::{Entry, Expr, Id, Program, Stage, Ty};
 use crate::link::{Index, Instance};
@@ -196,7 +197,8 @@ impl<'w, 'a> Writer<'w, 'a> {
             Some(info) => (Origin::Node(info.id.clone()), format!(" // {}", comment(info.label))),
             None => (Origin::Frame(self.body.part), String::new()),
         };
-        self.body.push(origin.clone(), &format!("    let {name} = {text};{}", beside.trim_end()));
+        let line = without_identities(&format!("let {name} = {text};"));
+        self.body.push(origin.clone(), &format!("    {line}{}", beside.trim_end()));
         self.body.push(origin, "\n");
         name
     }
@@ -234,8 +236,8 @@ impl<'w, 'a> Writer<'w, 'a> {
                     _ => atom.to_owned(),
                 }
             }
-            Expr::Builtin { name: "*", arguments } => {
-                arguments.iter().map(|id| self.atom(*id)).collect::<Vec<_>>().join(" * ")
+            Expr::Builtin { name: name @ ("*" | "/" | "+" | "-"), arguments } => {
+                arguments.iter().map(|id| self.atom(*id)).collect::<Vec<_>>().join(&format!(" {name} "))
             }
             Expr::Builtin { name, arguments } => {
                 format!("{name}({})", arguments.iter().map(|id| self.atom(*id)).collect::<Vec<_>>().join(", "))

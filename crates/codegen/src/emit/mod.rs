@@ -9,6 +9,7 @@ mod lights;
 pub(crate) mod material;
 mod terms;
 pub(crate) mod text;
+mod tidy;
 mod value;
 pub(crate) mod vertex;
 
@@ -58,8 +59,9 @@ pub(crate) fn shader(
     text.append(&fragment);
     library(index, &[&vertex_uses, &fragment_uses], &needs.methods, &mut text);
     let methods = header::methods(&plan, needs);
-    let dropped_nodes = Vec::new();
-    Ok(Shader { wgsl: text.text, reflection, segments: text.segments, dropped: plan.dropped, dropped_nodes, methods })
+    let Text { text: wgsl, segments, .. } = text;
+    let (dropped, dropped_nodes, slope_reads) = (plan.dropped, Vec::new(), Vec::new());
+    Ok(Shader { wgsl, reflection, segments, dropped, dropped_nodes, slope_reads, methods })
 }
 
 /// The material alone, or a part of it: one function of the context.
@@ -97,8 +99,8 @@ pub(crate) fn material(
     text.append(&body);
     library(index, &[&uses], methods, &mut text);
     let Text { text: wgsl, segments, .. } = text;
-    let (dropped, dropped_nodes, methods) = (Vec::new(), Vec::new(), Vec::new());
-    Ok(Shader { wgsl, reflection, segments, dropped, dropped_nodes, methods })
+    let (dropped, dropped_nodes, slope_reads, methods) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    Ok(Shader { wgsl, reflection, segments, dropped, dropped_nodes, slope_reads, methods })
 }
 
 /// The library's items that the stages reach, by file.

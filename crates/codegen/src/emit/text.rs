@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use halfvector_graph::document::NodeId;
 
+use super::tidy::without_identities;
+
 /// Where a part of a shader comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
@@ -121,7 +123,7 @@ impl Text {
 
     /// A line of the frame.
     pub(crate) fn line(&mut self, line: &str) {
-        self.push(Origin::Frame(self.part), line);
+        self.push(Origin::Frame(self.part), &without_identities(line));
         self.push(Origin::Frame(self.part), "\n");
     }
 

@@ -3,7 +3,7 @@
 
 use halfvector_interp::{Column, Derivatives, Entry, Limits, Outputs, Program, Resources};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use naga::{Expression, Function, Handle, MathFunction, Module, Scalar, ScalarKind, Statement, TypeInner};
+use naga::{Function, Handle, Module, Scalar, ScalarKind, TypeInner};
 
 /// What folding one call may cost: a shader computes in an instant what needs more.
 const LIMITS: Limits = Limits { steps: 1 << 14, bytes: 1 << 22 };
@@ -136,52 +136,6 @@ impl Callable {
     }
 }
 
-/// What a function of one built-in expression does with one of its arguments when others have a certain constant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Shape {
-    /// `arguments[0] op arguments[1]`
-    Binary(naga::BinaryOperator, usize, usize),
-    /// `mix(a, b, t)`
-    Mix(usize, usize, usize),
-    /// Anything else.
-    Other,
-}
-
-/// The shape of a function's body.
-pub(crate) fn shape(function: &Function) -> Shape {
-    let mut returned = None;
-    for statement in function.body.iter() {
-        match statement {
-            Statement::Emit(_) => {}
-            Statement::Return { value } => returned = *value,
-            _ => return Shape::Other,
-        }
-    }
-    let Some(returned) = returned else { return Shape::Other };
-    let argument = |handle: Handle<Expression>| match function.expressions[handle] {
-        Expression::FunctionArgument(index) => Some(index as usize),
-        // A scalar argument that the expression spreads itself.
-        Expression::Splat { value, .. } => match function.expressions[value] {
-            Expression::FunctionArgument(index) => Some(index as usize),
-            _ => None,
-        },
-        _ => None,
-    };
-    match function.expressions[returned] {
-        Expression::Binary { op, left, right } => match (argument(left), argument(right)) {
-            (Some(a), Some(b)) => Shape::Binary(op, a, b),
-            _ => Shape::Other,
-        },
-        Expression::Math { fun: MathFunction::Mix, arg, arg1: Some(b), arg2: Some(t), .. } => {
-            match (argument(arg), argument(b), argument(t)) {
-                (Some(a), Some(b), Some(t)) => Shape::Mix(a, b, t),
-                _ => Shape::Other,
-            }
-        }
-        _ => Shape::Other,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -235,19 +189,5 @@ mod tests {
             run("@group(0) @binding(0) var<uniform> u: f32; fn g(a: f32) -> f32 { return a * u; }", &[f(&[3.0])]),
             None
         );
-    }
-
-    #[test]
-    fn shapes() {
-        let of = |source: &str| {
-            let module = naga::front::wgsl::parse_str(source).expect("sound WGSL");
-            shape(module.functions.iter().next().expect("a function").1)
-        };
-        assert_eq!(
-            of("fn g(a: f32, b: f32) -> f32 { return b * a; }"),
-            Shape::Binary(naga::BinaryOperator::Multiply, 1, 0)
-        );
-        assert_eq!(of("fn g(a: vec3f, b: vec3f, t: f32) -> vec3f { return mix(a, b, t); }"), Shape::Mix(0, 1, 2));
-        assert_eq!(of("fn g(a: f32, b: f32) -> f32 { return a * b + a; }"), Shape::Other);
     }
 }

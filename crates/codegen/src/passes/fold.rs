@@ -1,7 +1,7 @@
 //! Pass: constants are computed and identities taken out, so that neither reaches the shader.
 //!
-//! A call folds when all its arguments are constants and its function can run on numbers alone; a
-//! product with 1 or 0, a sum with 0 and a mix at 0 or 1 fold when one argument is, a mix of two surfaces when they are alike. What is not finite is an error at
+//! A call folds when all its arguments are constants and its function can run on numbers alone; where some are, what is left of it
+//! (`reduce`): an argument, two that are joined, a number; a mix of two surfaces when they are alike. What is not finite is an error at
 //! its node, never text.
 
 use std::collections::HashMap;
@@ -10,8 +10,9 @@ use halfvector_graph::value::Type;
 
 use crate::ir::{Arena, Entry, Expr, Id, Literal, Program, Stage, Ty};
 use crate::link::Index;
-use crate::passes::eval::{Kind, Number, Shape, Value};
+use crate::passes::eval::{Kind, Number, Value};
 use crate::passes::mixed::{MIX_NORMALS, are_same};
+use crate::passes::reduce::Reduced;
 
 /// A node whose constant value is not a finite number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,6 +60,9 @@ pub(crate) fn fold_stage<'a>(stage: &mut Stage<'a>, index: &Index, faults: &mut 
             }
             Some(Folded::Same(id)) => id,
             Some(Folded::Spread(id, ty)) => arena.convert(id, ty),
+            Some(Folded::Joined(name, arguments)) => {
+                arena.push(Entry { expr: Expr::Builtin { name, arguments }, ..entry })
+            }
             Some(Folded::Struct(members)) => {
                 if members.iter().any(|(_, literal)| !literal.is_finite()) {
                     faults.push(NotFinite { node });
@@ -76,6 +80,7 @@ enum Folded {
     Literal(Literal),
     Same(Id),
     Spread(Id, Type),
+    Joined(&'static str, Vec<Id>),
     Struct(Vec<(String, Literal)>),
 }
 
@@ -117,21 +122,30 @@ fn call(
             _ => return None,
         });
     }
-    let is = |argument: usize, x: f32| literals.get(argument).copied().flatten().is_some_and(|l| l.is_all(x));
-    use naga::BinaryOperator as B;
-    let kept = match compiled.shape {
-        Shape::Binary(B::Multiply, a, b) if is(a, 0.0) || is(b, 0.0) => {
-            return Some(Folded::Literal(Literal::new(ty?, &[0.0])));
+    // Whole numbers divide in another way: they are handed on at most.
+    let known = literals.iter().map(|l| l.filter(|l| l.ty != Type::I32).map(|l| l.components()));
+    let known: Vec<Option<Vec<f32>>> = known.collect();
+    let (reduced, ty) = (compiled.reduced(&known)?, ty?);
+    let of = |argument: usize| arguments.get(argument).copied();
+    match reduced {
+        Reduced::Known(numbers) if numbers.iter().any(|x| !x.is_finite()) => None,
+        Reduced::Known(numbers) => {
+            let numbers: Vec<f64> = numbers.iter().map(|x| f64::from(*x)).collect();
+            Some(Folded::Literal(Literal::new(ty, &numbers)))
         }
-        Shape::Binary(B::Multiply | B::Divide, a, b) if is(b, 1.0) => a,
-        Shape::Binary(B::Multiply, a, b) if is(a, 1.0) => b,
-        Shape::Binary(B::Add | B::Subtract, a, b) if is(b, 0.0) => a,
-        Shape::Binary(B::Add, a, b) if is(a, 0.0) => b,
-        Shape::Mix(a, _, t) if is(t, 0.0) => a,
-        Shape::Mix(_, b, t) if is(t, 1.0) => b,
-        _ => return None,
-    };
-    same_or_spread(arena, *arguments.get(kept)?, ty?)
+        Reduced::Argument(kept) => same_or_spread(arena, of(kept)?, ty),
+        // What is joined is no longer to be read out of a function.
+        Reduced::Joined(operator, a, b) => {
+            let (a, b) = (of(a)?, of(b)?);
+            let is_so = [a, b].iter().any(|id| value_type(arena.get(*id).ty) == Some(ty));
+            (is_so && is_number(ty)).then(|| Folded::Joined(operator, vec![a, b]))
+        }
+    }
+}
+
+/// Whether operators of floats work on a type.
+fn is_number(ty: Type) -> bool {
+    !matches!(ty, Type::Bool | Type::I32)
 }
 
 /// Operators and functions that passes add themselves.
@@ -141,11 +155,22 @@ fn builtin(arena: &Arena<'_>, name: &str, arguments: &[Id], ty: Option<Type>) ->
     let is = |n: usize, x: f32| literal(n).is_some_and(|l| l.is_all(x));
     match name {
         "*" if is(0, 1.0) => same_or_spread(arena, arguments[1], ty),
-        "*" if is(1, 1.0) => same_or_spread(arena, arguments[0], ty),
-        "*" => {
+        "+" if is(0, 0.0) => same_or_spread(arena, arguments[1], ty),
+        "*" | "/" if is(1, 1.0) => same_or_spread(arena, arguments[0], ty),
+        "+" | "-" if is(1, 0.0) => same_or_spread(arena, arguments[0], ty),
+        "*" | "/" | "+" | "-" => {
             let (a, b) = (literal(0)?.components(), literal(1)?.components());
-            let product: Vec<f64> = (0..ty.components()).map(|i| f64::from(a[i % a.len()] * b[i % b.len()])).collect();
-            Some(Folded::Literal(Literal::new(ty, &product)))
+            let join = |i: usize| {
+                let (a, b) = (a[i % a.len()], b[i % b.len()]);
+                match name {
+                    "*" => a * b,
+                    "/" => a / b,
+                    "+" => a + b,
+                    _ => a - b,
+                }
+            };
+            let joined: Vec<f64> = (0..ty.components()).map(|i| f64::from(join(i))).collect();
+            Some(Folded::Literal(Literal::new(ty, &joined)))
         }
         "mix" => end_of_mix(arena, arguments, ty).or_else(|| {
             let (a, b, t) = (literal(0)?.components(), literal(1)?.components(), literal(2)?.components());

@@ -15,6 +15,7 @@ use crate::ir::{Arena, Entry, Expr, Id, Input, NodeInfo, Program, Stage, Table, 
 use crate::link::Index;
 use crate::passes::drop_unused::drop_unread;
 use crate::passes::fold;
+use crate::passes::idle::drop_idle;
 use crate::passes::mixed;
 use crate::passes::specialise::{NORMALS, SOCKETS};
 use crate::passes::types::{Source, Types};
@@ -30,25 +31,44 @@ pub(crate) enum StageKind {
 /// Turns nodes into expressions. One per stage, and one more where a context means something else.
 pub(crate) struct Lowering<'a, 't> {
     pub(crate) types: &'t Types<'a>,
+    pub(crate) index: &'a Index,
     pub(crate) methods: &'t Methods,
     pub(crate) fold: Fold,
     pub(crate) stage: StageKind,
     /// A socket of the surface whose number stays open, whatever is folded or wired to it.
     pub(crate) open: Option<&'static str>,
-    /// Whether what is computed is a height, whose slope counts.
-    pub(crate) height: bool,
-    /// Expressions of the nodes met so far.
-    calls: HashMap<usize, Id>,
+    /// Where pictures are read by arithmetic.
+    pub(crate) blend: Blend,
+    /// Expressions of the nodes met so far, and whether of what they compute the slope counts.
+    calls: HashMap<(usize, bool), Id>,
     /// Weights of the nodes that mix surfaces, held to 0..1.
     pub(super) weights: HashMap<usize, Id>,
     /// Expressions to take in the place of contexts.
     substitutes: Vec<(&'static str, Id)>,
 }
 
+/// Where pictures are read by arithmetic in place of a sampler.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Blend {
+    /// Nowhere: who runs this samples exactly.
+    Never,
+    /// Where a node shows the slope of what it is given.
+    Slopes,
+    /// Everywhere: what is computed is a height.
+    All,
+}
+
 impl<'a, 't> Lowering<'a, 't> {
-    pub(crate) fn new(types: &'t Types<'a>, methods: &'t Methods, fold: Fold, stage: StageKind) -> Self {
-        let (calls, weights) = (HashMap::new(), HashMap::new());
-        Lowering { types, methods, fold, stage, open: None, height: false, calls, weights, substitutes: Vec::new() }
+    pub(crate) fn new(
+        types: &'t Types<'a>,
+        index: &'a Index,
+        methods: &'t Methods,
+        fold: Fold,
+        stage: StageKind,
+    ) -> Self {
+        let (calls, weights, substitutes) = (HashMap::new(), HashMap::new(), Vec::new());
+        let blend = Blend::Slopes;
+        Lowering { types, index, methods, fold, stage, open: None, blend, calls, weights, substitutes }
     }
 
     /// From now on these contexts are these expressions; nodes that were met before are computed again.
@@ -73,34 +93,39 @@ impl<'a, 't> Lowering<'a, 't> {
         // Depth first with an explicit stack: a node is made when all that it reads is made.
         let is_open = self.types.gives_surface(node) && self.open == Some(name);
         let first = self.types.sources[node][index].and_then(Source::computed).filter(|_| !is_open);
-        let mut stack: Vec<(usize, bool)> = first.into_iter().map(|node| (node, false)).collect();
-        while let Some((at, ready)) = stack.pop() {
-            if self.calls.contains_key(&at) {
+        let slope = self.blend == Blend::All;
+        let is_steep = self.is_slope(node, slope, index);
+        let mut stack: Vec<(usize, bool, bool)> = first.into_iter().map(|node| (node, is_steep, false)).collect();
+        while let Some((at, slope, ready)) = stack.pop() {
+            if self.calls.contains_key(&(at, slope)) {
                 continue;
             }
             if ready {
-                let call = self.call(arena, table, at)?;
-                self.calls.insert(at, call);
+                let call = self.call(arena, table, at, slope)?;
+                self.calls.insert((at, slope), call);
                 continue;
             }
-            stack.push((at, true));
+            stack.push((at, slope, true));
             let info = &self.types.nodes[at];
             let function = self.function(at);
             for (index, input) in info.def.inputs.iter().enumerate().rev() {
                 let wanted = function.arguments.iter().any(|a| matches!(a, Argument::Input(n) if *n == input.name));
-                let source = self.types.sources[at][index].and_then(Source::computed);
-                stack.extend(source.filter(|_| wanted).map(|node| (node, false)));
+                let source = self.types.sources[at][index].and_then(Source::computed).filter(|_| wanted);
+                stack.extend(source.map(|node| (node, self.is_slope(at, slope, index), false)));
             }
         }
-        self.value(arena, table, node, index).map(Some)
+        self.value(arena, table, node, slope, index).map(Some)
+    }
+
+    /// Whether the slope of what an input is given counts; `slope`: whether that of what the node computes does.
+    fn is_slope(&self, node: usize, slope: bool, input: usize) -> bool {
+        let def = self.types.nodes[node].def;
+        slope || self.blend != Blend::Never && def.slopes.contains(&def.inputs[input].name)
     }
 
     /// The function that computes a node in this stage under the chosen methods.
     fn function(&self, node: usize) -> &'a Function {
         let def = self.types.nodes[node].def;
-        if let Some([fragment, vertex]) = def.height_functions.as_ref().filter(|_| self.height && self.filters(node)) {
-            return if self.stage == StageKind::Vertex { vertex } else { fragment };
-        }
         let by_method = def
             .method_functions
             .iter()
@@ -114,15 +139,17 @@ impl<'a, 't> Lowering<'a, 't> {
         }
     }
 
-    /// Whether the pictures of a node are filtered linearly.
-    fn filters(&self, node: usize) -> bool {
+    /// Whether a node reads pictures whose slope counts, all of them filtered linearly.
+    fn blends(&self, node: usize, slope: bool) -> bool {
         let inputs = self.types.nodes[node].def.inputs.iter().enumerate();
-        inputs.filter(|(_, input)| input.ty == SocketType::Texture).all(|(index, _)| {
+        let mut pictures = inputs.filter(|(_, input)| input.ty == SocketType::Texture).map(|(index, _)| index);
+        let is_filtered = |index: usize| {
             let (node, index) = self.picture(node, index);
             let info = &self.types.nodes[node];
             let value = info.values.get(&info.def.inputs[index].name);
             matches!(value, Some(Value::Image(image)) if image.filter == Filter::Linear)
-        })
+        };
+        pictures.clone().any(|index| self.is_slope(node, slope, index)) && pictures.all(is_filtered)
     }
 
     /// The node and the number of its input that hold the picture of an input: it may be handed on from a group's.
@@ -133,7 +160,7 @@ impl<'a, 't> Lowering<'a, 't> {
         }
     }
 
-    fn call(&self, arena: &mut Arena<'a>, table: &mut Table, node: usize) -> Result<Id, CodegenError> {
+    fn call(&self, arena: &mut Arena<'a>, table: &mut Table, node: usize, slope: bool) -> Result<Id, CodegenError> {
         let info: &NodeInfo<'a> = &self.types.nodes[node];
         let function = self.function(node);
         if self.stage == StageKind::Vertex && function.implicit_derivatives {
@@ -155,7 +182,7 @@ impl<'a, 't> Lowering<'a, 't> {
                     function.name, info.def.id
                 )));
             };
-            let value = self.value(arena, table, node, index)?;
+            let value = self.value(arena, table, node, slope, index)?;
             arguments.push(match (argument, &arena.get(value).expr) {
                 (Argument::Sampler(_), Expr::Texture(image)) => {
                     let sampler = Expr::Sampler(*image);
@@ -165,7 +192,8 @@ impl<'a, 't> Lowering<'a, 't> {
             });
         }
         let generic = if info.def.generic.is_empty() { None } else { info.generic };
-        let expr = Expr::Call { function: &function.name, generic, arguments };
+        let twin = if self.blends(node, slope) { self.index.blended(&function.name) } else { None };
+        let expr = Expr::Call { function: twin.unwrap_or(&function.name), generic, arguments };
         let ty = if function.returns_struct {
             Ty::Struct
         } else {
@@ -178,8 +206,15 @@ impl<'a, 't> Lowering<'a, 't> {
         Ok(arena.push(Entry { expr, ty, node: Some(node), hint: "" }))
     }
 
-    /// The value of an input, once what it is connected to is made.
-    fn value(&self, arena: &mut Arena<'a>, table: &mut Table, node: usize, index: usize) -> Result<Id, CodegenError> {
+    /// The value of an input, once what it is connected to is made; `slope`: whether the slope of what the node computes counts.
+    fn value(
+        &self,
+        arena: &mut Arena<'a>,
+        table: &mut Table,
+        node: usize,
+        slope: bool,
+        index: usize,
+    ) -> Result<Id, CodegenError> {
         let info = &self.types.nodes[node];
         let def = &info.def.inputs[index];
         let ty = match def.ty {
@@ -191,18 +226,19 @@ impl<'a, 't> Lowering<'a, 't> {
             }
             SocketType::Surface => {
                 let source = self.types.sources[node][index].and_then(Source::computed);
-                return source.and_then(|source| self.calls.get(&source)).copied().ok_or(CodegenError::NoSurface);
+                let call = source.and_then(|source| self.calls.get(&(source, slope)));
+                return call.copied().ok_or(CodegenError::NoSurface);
             }
         };
         let is_open = self.types.gives_surface(node) && self.open == Some(def.name.as_str());
         if let (Some(Source::Input { node, input }), false) = (self.types.sources[node][index], is_open) {
-            let id = self.value(arena, table, node, input)?;
+            let id = self.value(arena, table, node, slope, input)?;
             return Ok(arena.convert(id, ty));
         }
         if let (Some(Source::Output { node: source, output }), false) = (self.types.sources[node][index], is_open) {
             let from = &self.types.nodes[source];
             let output = &from.def.outputs[output];
-            let call = self.calls[&source];
+            let call = self.calls[&(source, self.is_slope(node, slope, index))];
             let id = if matches!(arena.get(call).ty, Ty::Struct) {
                 let from_ty = match output.ty {
                     SocketType::Value(ty) => ty,
@@ -272,19 +308,20 @@ impl<'a, 't> Lowering<'a, 't> {
 /// is folded at once, since a height that is the same everywhere needs no normals derived from it.
 pub(crate) fn lower<'a>(
     types: &Types<'a>,
-    index: &Index,
+    index: &'a Index,
     methods: &Methods,
     fold: Fold,
     open: Option<&'static str>,
 ) -> Result<Program<'a>, CodegenError> {
     let mut table = Table::default();
     let mut vertex = Stage::default();
-    let lowered = |stage| Lowering { open, ..Lowering::new(types, methods, fold, stage) };
-    let mut lowering = Lowering { height: true, ..lowered(StageKind::Vertex) };
+    let lowered = |stage| Lowering { open, ..Lowering::new(types, index, methods, fold, stage) };
+    let mut lowering = Lowering { blend: Blend::All, ..lowered(StageKind::Vertex) };
     if let Some(height) = lowering.surface(&mut vertex.arena, &mut table, "height")? {
         vertex.roots.insert("height", height);
     }
     drop_unread(&mut vertex, index);
+    drop_idle(&mut vertex, index);
     // Faults are found again, and told, when the whole program is folded.
     fold::fold_stage(&mut vertex, index, &mut Vec::new());
     let varies = vertex.root("height").is_some_and(|id| {
@@ -301,7 +338,7 @@ pub(crate) fn lower<'a>(
         }
     }
     // Made apart: what feeds other sockets, too, is read as they like it.
-    let mut heights = Lowering { height: true, ..lowered(StageKind::Fragment) };
+    let mut heights = Lowering { blend: Blend::All, ..lowered(StageKind::Fragment) };
     if derived_normal && let Some(height) = heights.surface(&mut fragment.arena, &mut table, "height")? {
         let normal = normal_from_height(&mut fragment.arena, height);
         // Kept for the tangent of a brushed lobe.
@@ -316,6 +353,7 @@ pub(crate) fn lower<'a>(
         }
     }
     drop_unread(&mut fragment, index);
+    drop_idle(&mut fragment, index);
     let Table { inputs, images, .. } = table;
     Ok(Program { nodes: types.nodes.clone(), inputs, images, fragment, vertex, derived_normal })
 }
@@ -323,20 +361,22 @@ pub(crate) fn lower<'a>(
 /// The program of the material alone: the call of the surface node, as the root `surface` of the fragment stage.
 pub(crate) fn lower_material<'a>(
     types: &Types<'a>,
-    index: &Index,
+    index: &'a Index,
     methods: &Methods,
     fold: Fold,
 ) -> Result<Program<'a>, CodegenError> {
     let mut table = Table::default();
     let mut stage = Stage::default();
-    let mut lowering = Lowering::new(types, methods, fold, StageKind::Fragment);
+    let exact = Lowering::new(types, index, methods, fold, StageKind::Fragment);
+    let mut lowering = Lowering { blend: Blend::Never, ..exact };
     // Making each input makes all nodes that the surface reads.
     for input in &types.nodes[types.surface].def.inputs {
         lowering.input(&mut stage.arena, &mut table, types.surface, &input.name)?;
     }
-    let surface = lowering.call(&mut stage.arena, &mut table, types.surface)?;
+    let surface = lowering.call(&mut stage.arena, &mut table, types.surface, false)?;
     stage.roots.insert("surface", surface);
     drop_unread(&mut stage, index);
+    drop_idle(&mut stage, index);
     let Table { inputs, images, .. } = table;
     let nodes = types.nodes.clone();
     Ok(Program { nodes, inputs, images, fragment: stage, ..Program::default() })
@@ -345,16 +385,18 @@ pub(crate) fn lower_material<'a>(
 /// The program of the height alone, as the root `height` of a stage; `None` where the surface has no such socket.
 pub(crate) fn lower_height<'a>(
     types: &Types<'a>,
-    index: &Index,
+    index: &'a Index,
     methods: &Methods,
     stage: StageKind,
 ) -> Result<Option<Program<'a>>, CodegenError> {
     let mut table = Table::default();
     let mut made = Stage::default();
-    let mut lowering = Lowering::new(types, methods, Fold::Export, stage);
+    let exact = Lowering::new(types, index, methods, Fold::Export, stage);
+    let mut lowering = Lowering { blend: Blend::Never, ..exact };
     let Some(height) = lowering.surface(&mut made.arena, &mut table, "height")? else { return Ok(None) };
     made.roots.insert("height", height);
     drop_unread(&mut made, index);
+    drop_idle(&mut made, index);
     let Table { inputs, images, .. } = table;
     let alone = Program { nodes: types.nodes.clone(), inputs, images, ..Program::default() };
     Ok(Some(match stage {

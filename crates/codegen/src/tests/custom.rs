@@ -112,3 +112,54 @@ fn what_a_function_does_not_read_is_left_out() {
     validate(&alone).unwrap_or_else(|e| panic!("{e}\n{}", alone.wgsl));
     assert!(alone.wgsl.contains("node_custom_f(parameters.a)"), "{}", alone.wgsl);
 }
+
+/// What a function is given and does not use is gone from source, uniforms and bindings, however it is not used.
+#[test]
+fn what_has_no_effect_leaves_no_trace() {
+    let function = |result: &str, body: &str, beside: &str| {
+        format!(
+            "struct Both {{\n    /// one\n    one: f32,\n    /// other\n    other: f32,\n}}\n{beside}\n/// F\n///\n/// F.\n/// @node custom/f\n/// - x: number [0.5]\n/// - y: another [0.5]\nfn f(x: f32, y: f32) -> {result} {{\n{body}\n}}\n"
+        )
+    };
+    let ignoring = "fn g(a: f32, b: f32) -> f32 { return a; }\n";
+    for (result, body, beside, output) in [
+        ("f32", "return g(x, y);", ignoring, "out"),
+        ("f32", "let unused = y * 2.0;\nlet more = unused;\nreturn x;", "", "out"),
+        ("f32", "_ = y;\nreturn x;", "", "out"),
+        ("f32", "return x + 0.0 * y;", "", "out"),
+        ("f32", "{ let y = 2.0; return x * y; }", "", "out"),
+        ("f32", "var v = y; v = x; return x;", "", "out"),
+        ("Both", "return Both(x, y);", "", "one"),
+        ("Both", "return Both(g(x, y), sin(y));", ignoring, "one"),
+    ] {
+        let mut document = super::material(
+            "",
+            r#""noise": {"node": "procedural/value_noise_2d", "label": "Noise"}, "n": {"node": "custom/f", "label": "Mine", "values": {"x": 0.25}}"#,
+            &format!(
+                r#"{{"from": "noise.out", "to": "n.y"}}, {{"from": "n.{output}", "to": "surface.perceptual_roughness"}}"#
+            ),
+        );
+        let text = function(result, body, beside);
+        document.functions.insert("f".into(), text.clone());
+        document.parameters.push(halfvector_graph::document::Parameter {
+            name: "noise_scale".into(),
+            label: None,
+            socket: SocketRef::new("noise", "scale"),
+            range: None,
+        });
+        for fold in [Fold::Live, Fold::Export] {
+            let wgsl = made(&document, &sun(), fold).wgsl;
+            for trace in ["Noise", "noise", "struct Parameters {\n    noise"] {
+                assert!(!wgsl.contains(trace), "{body}: {trace}\n{wgsl}");
+            }
+        }
+        // The same with an effect keeps it.
+        let used = text
+            .replace("return x", "return y + x")
+            .replace("Both(x, y)", "Both(x + y, y)")
+            .replace("g(x, y)", "g(y, x)");
+        document.functions.insert("f".into(), used);
+        let wgsl = exported(&document, &sun()).wgsl;
+        assert!(wgsl.contains("value_noise_2d") || body.starts_with('{'), "{body}\n{wgsl}");
+    }
+}

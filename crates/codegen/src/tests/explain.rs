@@ -188,3 +188,26 @@ fn remarks_stand_in_the_comment() {
         }
     }
 }
+
+/// A picture whose slope is seen is read by arithmetic: which, why and at what price is said.
+#[test]
+fn slopes_that_are_read_by_arithmetic_are_told() {
+    let document = material(
+        "",
+        r#""relief": {"node": "textures/image", "label": "Relief", "values": {"image": {"file": "relief.png", "color_space": "linear"}}}"#,
+        r#"{"from": "relief.r", "to": "surface.height"}, {"from": "relief.color", "to": "surface.base_color"}"#,
+    );
+    let shader = explained(&document, Library::standard(), &sun(), &[]).unwrap_or_else(|e| panic!("{e}"));
+    let [read] = shader.slope_reads.as_slice() else { panic!("{:?}", shader.slope_reads) };
+    assert_eq!((read.node.as_str(), read.label.as_str()), ("relief", "Relief"));
+    assert!(read.why.contains("8 bits") && read.instructions > Some(20), "{read:?}");
+    let said = shader.header().replace("\n//    ", "");
+    assert!(said.contains("slopes: where its slope is seen, `Relief` is blended"), "{said}");
+    let plain = super::material(
+        "",
+        r#""relief": {"node": "textures/image", "values": {"image": {"file": "relief.png", "color_space": "linear"}}}"#,
+        r#"{"from": "relief.color", "to": "surface.base_color"}"#,
+    );
+    let shader = explained(&plain, Library::standard(), &sun(), &[]).unwrap_or_else(|e| panic!("{e}"));
+    assert!(shader.slope_reads.is_empty() && !shader.header().contains("slopes:"), "{}", shader.header());
+}

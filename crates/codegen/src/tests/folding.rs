@@ -43,6 +43,72 @@ fn identities_vanish() {
     }
 }
 
+/// No line of any example computes what changes nothing.
+#[test]
+fn no_example_holds_an_identity() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let mut paths = Vec::new();
+    for folder in [folder.clone(), folder.join("nodes"), folder.join("unstable"), folder.join("../tests/golden")] {
+        let entries = std::fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+        paths.extend(entries.flatten().map(|entry| entry.path()));
+    }
+    paths.retain(|path| path.to_string_lossy().ends_with(".material.json"));
+    assert!(paths.len() > 30, "{} examples", paths.len());
+    paths.sort();
+    for path in &paths {
+        let document = halfvector_graph::file::load(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        for needs in [sun(), environment()] {
+            let wgsl = exported(&document, &needs).wgsl;
+            for line in wgsl.lines() {
+                let code = line.split("//").next().unwrap_or_default();
+                let ends = |at: usize| !code[at..].starts_with(|c: char| c.is_ascii_digit() || c == 'e');
+                for part in ["* 1.0", "/ 1.0", "+ 0.0", "- 0.0", "(1.0 *", "= 1.0 *", ", 1.0 *", " 0.0 +", "(0.0 +"] {
+                    let found = code.match_indices(part).find(|(at, _)| ends(at + part.len()));
+                    assert!(found.is_none(), "{}: {line}", path.display());
+                }
+                let weight = code.match_indices("mix(").filter_map(|(at, _)| last_argument(&code[at + 4..]));
+                let end = weight.into_iter().find(|weight| matches!(*weight, "0.0" | "1.0"));
+                assert!(end.is_none(), "{}: {line}", path.display());
+            }
+        }
+    }
+}
+
+/// The last argument of a call whose brackets have just been opened.
+fn last_argument(text: &str) -> Option<&str> {
+    let (mut depth, mut first) = (0, 0);
+    for (at, c) in text.char_indices() {
+        match c {
+            '(' => depth += 1,
+            ')' if depth == 0 => return Some(text[first..at].trim()),
+            ')' => depth -= 1,
+            ',' if depth == 0 => first = at + 1,
+            _ => {}
+        }
+    }
+    None
+}
+
+/// What some known arguments leave of a function: an argument, or two that are joined.
+#[test]
+fn identities_of_several_arguments_vanish() {
+    let document = material(
+        "",
+        r#""noise": {"node": "procedural/value_noise_2d"}, "other": {"node": "procedural/value_noise_2d", "values": {"scale": 3.0}},
+           "same": {"node": "math/multiply_add", "label": "Same", "values": {"b": 1.0, "c": 0.0}},
+           "range": {"node": "math/remap", "label": "Range"},
+           "part": {"node": "math/divide", "label": "Part", "values": {"b": 1.0}},
+           "sum": {"node": "math/multiply_add", "label": "Sum", "values": {"b": 1.0}}"#,
+        r#"{"from": "noise.out", "to": "same.a"}, {"from": "same.out", "to": "range.x"}, {"from": "range.out", "to": "part.a"},
+           {"from": "part.out", "to": "sum.a"}, {"from": "other.out", "to": "sum.c"}, {"from": "sum.out", "to": "surface.perceptual_roughness"}"#,
+    );
+    let text = exported(&document, &sun()).wgsl;
+    for label in ["Same", "Range", "Part"] {
+        assert!(!text.contains(&format!("// {label}")), "{label} is an identity\n{text}");
+    }
+    assert!(text.contains("let sum = value_noise_2_d + value_noise_2_d_2; // Sum"), "{text}");
+}
+
 #[test]
 fn what_is_not_finite_is_a_problem_of_its_node() {
     let document = material(

@@ -30,7 +30,7 @@ fn height_moves_the_vertex_and_tilts_the_normal() {
     let (vertex, fragment) = (part(&shader, "vs_main"), part(&shader, "fs_main"));
     assert!(vertex.contains("displaced(world_position, world_normal, "), "{vertex}");
     assert!(
-        vertex.contains("node_textures_image_height_vertex("),
+        vertex.contains("blended_node_textures_image_vertex("),
         "no implicit derivative in the vertex stage\n{vertex}"
     );
     // Of the place that is seen, so that curved surfaces are right; nothing else asks for the one before displacement.
@@ -56,7 +56,7 @@ fn heights_are_blended_by_arithmetic() {
     let fragment = exported(&document, &sun());
     let fragment = part(&fragment, "fs_main");
     assert!(
-        fragment.contains("node_textures_image_height(") && fragment.contains("node_textures_image("),
+        fragment.contains(" blended_node_textures_image(") && fragment.contains(" node_textures_image("),
         "{fragment}"
     );
     let Some(Value::Image(image)) = document.graph.nodes.get_mut("relief").and_then(|n| n.values.get_mut("image"))

@@ -48,9 +48,9 @@ pub(crate) fn example(ty: SocketType) -> &'static str {
 pub(crate) fn value(value: &Value) -> String {
     match value {
         Value::Bool(b) => b.to_string(),
-        // As an f64 it has all its digits.
-        Value::Number(x) if x.fract() == 0.0 => format!("the number {}", f64::from(*x)),
-        Value::Number(x) => format!("the number {x}"),
+        // As an f64 it has all its digits; of a very large one nobody counts them.
+        Value::Number(x) if x.fract() == 0.0 && x.abs() < 1e12 => format!("the number {}", f64::from(*x)),
+        Value::Number(x) => format!("the number {x:?}"),
         Value::Integer(x) => format!("the number {x}"),
         Value::Decimal { exact, .. } => format!("the number {exact:?}"),
         Value::Vec2(_) => "two numbers".into(),

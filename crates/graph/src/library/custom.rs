@@ -10,13 +10,11 @@ use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use halfvector_shaders::{Item, ItemKind, Token, TokenKind, slice, tokens};
+use halfvector_shaders::{Item, ItemKind, SliceErrorKind, Token, TokenKind, slice, tokens};
 
-use super::complaint::word_at;
 use super::loops::work;
-use super::signature::{SURFACE_STRUCT, judge, wgsl_names};
-use super::{Source, borrowed, line_of, node};
-use crate::check::words::nearest;
+use super::signature::{SURFACE_STRUCT, Signatures, judge};
+use super::{Source, borrowed, complaint, line_of, node};
 use crate::document::is_name;
 use crate::node_def::NodeDef;
 
@@ -36,14 +34,16 @@ pub struct CodeError {
     pub column: usize,
     /// What is wrong and what to do.
     pub message: String,
-    /// The line.
+    /// The line, or of a long one what stands about the place.
     pub excerpt: String,
+    /// Characters of the line in front of the excerpt.
+    pub skipped: usize,
 }
 
 impl fmt::Display for CodeError {
     /// The message, and below it the line with a caret under the place.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let before = self.excerpt.chars().take(self.column - 1);
+        let before = self.excerpt.chars().take(self.column - 1 - self.skipped);
         let margin: String = before.map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
         write!(f, "line {}, column {}: {}\n    {}\n    {margin}^", self.line, self.column, self.message, self.excerpt)
     }
@@ -95,7 +95,7 @@ pub(super) fn error_at(text: &str, at: usize, message: impl Into<String>) -> Cod
     let skipped = column.saturating_sub(SHOWN / 2);
     CodeError {
         line: line_of(text, at),
-        column: column - skipped + 1,
+        column: column + 1,
         message: message.into(),
         excerpt: line
             .chars()
@@ -103,6 +103,7 @@ pub(super) fn error_at(text: &str, at: usize, message: impl Into<String>) -> Cod
             .take(SHOWN)
             .map(|c| if c.is_control() && c != '\t' { ' ' } else { c })
             .collect(),
+        skipped,
     }
 }
 
@@ -117,11 +118,15 @@ fn read(id: &str, text: &str) -> Result<CustomFunction, CodeError> {
     let items = slice(text).map_err(|e| {
         let message = e.to_string();
         let message = message.split_once(": ").map_or(message.as_str(), |(_, message)| message);
+        let message = match &e.kind {
+            SliceErrorKind::NotAnItem(found) => complaint::no_item(found).unwrap_or_else(|| message.to_owned()),
+            _ => message.to_owned(),
+        };
         error_at(text, e.offset, message)
     })?;
     let code: Vec<Token> = tokens(text).into_iter().filter(|token| !token.kind.is_comment()).collect();
     refuse_items(text, &items)?;
-    refuse_words(text, &code)?;
+    refuse_words(text, &code, &items)?;
     refuse_structs_in_structs(text, &items)?;
     let work = work(text, &items, &code)?;
     if halfvector_shaders::generic_types(text).is_some() {
@@ -129,9 +134,11 @@ fn read(id: &str, text: &str) -> Result<CustomFunction, CodeError> {
     }
     let library = borrowed::reached(text, &items).map_err(|(range, message)| error_at(text, range.start, message))?;
     let bare = without_comments(text);
-    let signatures = judge(&format!("{bare}\n{library}"))
-        .map_err(|(at, message)| error_at(text, at, with_hint(text, at, message)))?;
+    let signatures =
+        judge(&format!("{bare}\n{library}"), text.len()).map_err(|(at, message)| error_at(text, at, message))?;
     let main = main_function(id, text, &items)?;
+    let derivative = code.iter().find(|token| takes_derivative(token.text(text), &items, &signatures));
+    let derivative = derivative.map(|token| token.start);
     let work = work.get(main.as_str()).copied().unwrap_or(1);
     let names = new_names(id, &items, &main);
     let source = renamed(text, &items, &names);
@@ -149,7 +156,8 @@ fn read(id: &str, text: &str) -> Result<CustomFunction, CodeError> {
     };
     def.file = format!("custom/{id}");
     if def.function.implicit_derivatives {
-        let at = items.iter().find(|item| item.name == main).map_or(0, |item| item.code_start);
+        let at =
+            derivative.or_else(|| items.iter().find(|item| item.name == main).map(|item| item.code_start)).unwrap_or(0);
         return fail(
             at,
             "it compares neighbouring pixels, which fails in a branch: read textures with textureSampleLevel or textureSampleGrad, take no derivatives, and of the library's nodes call the form of the vertex stage, such as `node_procedural_wave_vertex`".into(),
@@ -171,39 +179,6 @@ fn without_comments(text: &str) -> String {
     }
     bare.push_str(&text[at..]);
     bare
-}
-
-/// What is said of an unknown name, with what was perhaps meant.
-fn with_hint(text: &str, at: usize, message: String) -> String {
-    /// Words of other shading languages.
-    const ELSEWHERE: [(&str, &str); 14] = [
-        ("float", "f32"),
-        ("double", "f32"),
-        ("int", "i32"),
-        ("uint", "u32"),
-        ("float2", "vec2f"),
-        ("float3", "vec3f"),
-        ("float4", "vec4f"),
-        ("lerp", "mix"),
-        ("frac", "fract"),
-        ("rsqrt", "inverseSqrt"),
-        ("inversesqrt", "inverseSqrt"),
-        ("texture2D", "textureSampleLevel"),
-        ("mod", "a % b"),
-        ("fmod", "a % b"),
-    ];
-    let word = word_at(text, at);
-    if !message.contains("no definition in scope") || borrowed::is_function(word) {
-        return message;
-    }
-    let elsewhere = ELSEWHERE.iter().find(|(other, _)| *other == word).map(|(_, ours)| *ours);
-    if let Some(likely) = elsewhere.or_else(|| nearest(word, wgsl_names())) {
-        return format!("there is no `{word}`; did you mean `{likely}`?");
-    }
-    match nearest(word, borrowed::functions()) {
-        Some(likely) => format!("there is no `{word}`; did you mean the library's `{likely}`?"),
-        None => format!("there is no `{word}`: it is none of WGSL's, of yours and of the library's"),
-    }
 }
 
 fn refuse_items(text: &str, items: &[Item]) -> Result<(), CodeError> {
@@ -253,7 +228,7 @@ fn is_of_wgsl(name: &str) -> bool {
 }
 
 /// Refuses what reaches beyond arguments and results, and what need not end.
-fn refuse_words(text: &str, code: &[Token]) -> Result<(), CodeError> {
+fn refuse_words(text: &str, code: &[Token], items: &[Item]) -> Result<(), CodeError> {
     let word = |i: usize| code.get(i).map_or("", |token| token.text(text));
     for (i, token) in code.iter().enumerate() {
         let message = match token.text(text) {
@@ -262,6 +237,10 @@ fn refuse_words(text: &str, code: &[Token]) -> Result<(), CodeError> {
             "discard" => "a node gives values and cannot discard; feed the surface's opacity instead",
             "ptr" | "atomic" | "override" => "a node works on values only; leave it out",
             word if word.ends_with("Barrier") => "a node has no others to wait for; leave it out",
+            name if is_of_some_devices(name) => "not every device has this type; there are f32, i32, u32 and bool",
+            name if word(i + 1) == "(" && reaches_beyond(name) && items.iter().all(|item| item.name != name) => {
+                "this reaches beyond the values of a node: its neighbours, memory or rays; leave it out"
+            }
             "array" if word(i + 1) == "<" => {
                 if let Some(message) = array_problem(&word, i) {
                     message
@@ -277,6 +256,28 @@ fn refuse_words(text: &str, code: &[Token]) -> Result<(), CodeError> {
         return Err(error_at(text, token.start, message));
     }
     Ok(())
+}
+
+/// Whether it is the name of a type of 16 or 64 bits.
+fn is_of_some_devices(word: &str) -> bool {
+    let is_half = |word: &str| word.starts_with(['2', '3', '4']) && word.ends_with('h');
+    matches!(word, "f16" | "f64" | "i16" | "u16" | "i64" | "u64")
+        || word.strip_prefix("vec").or_else(|| word.strip_prefix("mat")).is_some_and(is_half)
+}
+
+/// Whether it is a function beyond the text's own that compares neighbouring pixels.
+fn takes_derivative(word: &str, items: &[Item], signatures: &Signatures) -> bool {
+    let is_of_wgsl = matches!(word, "textureSample" | "textureSampleBias")
+        || ["dpdx", "dpdy", "fwidth"].into_iter().any(|head| word.starts_with(head));
+    (is_of_wgsl || signatures.takes_derivatives(word)) && items.iter().all(|item| item.name != word)
+}
+
+/// Whether it is one of WGSL's functions that work on more than values.
+fn reaches_beyond(word: &str) -> bool {
+    ["subgroup", "quad", "atomic", "workgroup", "rayQuery", "coop"]
+        .into_iter()
+        .any(|head| word.strip_prefix(head).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_uppercase())))
+        || matches!(word, "textureStore" | "textureBarrier" | "arrayLength")
 }
 
 /// What is wrong with the array type whose name is word `i`.

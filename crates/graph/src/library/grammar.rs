@@ -18,8 +18,8 @@ pub(super) struct NodeDoc {
     pub(super) result: Option<(usize, String)>,
     /// Line and function name.
     pub(super) vertex: Option<(usize, String)>,
-    /// Line and function names, for the fragment and the vertex stage.
-    pub(super) height: Option<(usize, [String; 2])>,
+    /// Line and argument.
+    pub(super) slopes: Vec<(usize, String)>,
     /// Line, term, method and function name.
     pub(super) methods: Vec<(usize, String, String, String)>,
     /// Line, output and function name.
@@ -144,10 +144,8 @@ fn directives(text: &str, line: usize, doc: &mut NodeDoc, slips: &mut Vec<Slip>)
             }
             ("vertex", [function]) if doc.vertex.is_none() => doc.vertex = Some((line, (*function).into())),
             ("vertex", _) => slip("write `@vertex function`, once"),
-            ("height", [fragment, vertex]) if doc.height.is_none() => {
-                doc.height = Some((line, [(*fragment).into(), (*vertex).into()]));
-            }
-            ("height", _) => slip("write `@height function vertex_function`, once"),
+            ("slope", [argument]) => doc.slopes.push((line, (*argument).into())),
+            ("slope", _) => slip("write `@slope argument`"),
             ("method", [choice, function]) => match choice.split_once('=') {
                 Some((term, method)) => doc.methods.push((line, term.into(), method.into(), (*function).into())),
                 None => slip("write `@method term=method function`"),
@@ -155,7 +153,7 @@ fn directives(text: &str, line: usize, doc: &mut NodeDoc, slips: &mut Vec<Slip>)
             ("method", _) => slip("write `@method term=method function`"),
             ("output", [output, function]) => doc.outputs.push((line, (*output).into(), (*function).into())),
             ("output", _) => slip("write `@output name function`"),
-            _ => slip(&format!("`@{word}` is unknown; there are @node, @also, @vertex, @height, @method and @output")),
+            _ => slip(&format!("`@{word}` is unknown; there are @node, @also, @vertex, @slope, @method and @output")),
         }
     }
 }

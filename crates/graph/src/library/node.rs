@@ -26,7 +26,6 @@ pub(super) fn read_nodes(
             let doc = grammar::read(&lines, &mut reader.slips);
             taken.push(item.name.clone());
             taken.extend(doc.vertex.iter().map(|(_, function)| function.clone()));
-            taken.extend(doc.height.iter().flat_map(|(_, functions)| functions.clone()));
             taken.extend(doc.methods.iter().map(|(_, _, _, function)| function.clone()));
             taken.extend(doc.outputs.iter().map(|(_, _, function)| function.clone()));
             let def = reader.node(&doc, &item.name);
@@ -101,13 +100,14 @@ impl Reader<'_> {
                 implicit_derivatives: signature.implicit_derivatives,
             },
             vertex_function: None,
-            height_functions: None,
+            slopes: Vec::new(),
             method_functions: Vec::new(),
             output_functions: Vec::new(),
             forwards: doc.id == REROUTE,
         };
         def.function.arguments = self.arguments(doc.line, &signature, &def.inputs);
         self.stand_ins(doc, &mut def);
+        self.slopes(doc, &mut def);
         Some(def)
     }
 
@@ -288,17 +288,12 @@ impl Reader<'_> {
         arguments
     }
 
-    /// The functions that stand in for the node's own: `@vertex`, `@height`, `@method`, `@output`.
+    /// The functions that stand in for the node's own: `@vertex`, `@method`, `@output`.
     fn stand_ins(&mut self, doc: &NodeDoc, def: &mut NodeDef) {
         let own = self.signatures.get(self.source, &def.function.name);
         let own_result = own.map(|signature| signature.result);
         if let Some((line, name)) = &doc.vertex {
             def.vertex_function = self.vertex_stand_in(*line, name, def, own_result.as_ref());
-        }
-        if let Some((line, [fragment, vertex])) = &doc.height {
-            let fragment = self.stand_in_of_type(*line, fragment, def, own_result.as_ref());
-            let vertex = self.vertex_stand_in(*line, vertex, def, own_result.as_ref());
-            def.height_functions = fragment.zip(vertex).map(|(fragment, vertex)| [fragment, vertex]);
         }
         for (line, term_name, method, name) in &doc.methods {
             let known = term(term_name).is_some_and(|term| term.methods.iter().any(|m| m.name == method));
@@ -319,6 +314,19 @@ impl Reader<'_> {
                     self.slip(*line, format!("`{name}` does not return the type of `{output}`"));
                 }
                 def.output_functions.push((output.clone(), function));
+            }
+        }
+    }
+
+    /// The inputs of `@slope`.
+    fn slopes(&mut self, doc: &NodeDoc, def: &mut NodeDef) {
+        for (line, name) in &doc.slopes {
+            if def.slopes.contains(name) {
+                self.slip(*line, format!("`@slope {name}` stands twice"));
+            } else if def.inputs.iter().any(|input| input.name == *name) {
+                def.slopes.push(name.clone());
+            } else {
+                self.slip(*line, format!("`@slope {name}`: the function has no argument `{name}`"));
             }
         }
     }

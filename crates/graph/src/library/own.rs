@@ -60,7 +60,7 @@ fn plain(id: &str, label: &str) -> NodeDef {
             implicit_derivatives: false,
         },
         vertex_function: None,
-        height_functions: None,
+        slopes: Vec::new(),
         method_functions: Vec::new(),
         output_functions: Vec::new(),
         forwards: false,

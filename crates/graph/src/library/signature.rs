@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 
+use super::explain::explain;
 use super::{LibraryProblem, Source, complaint, line_of};
 use crate::value::{SocketType, Type};
 
@@ -55,6 +56,11 @@ pub(super) struct Signatures {
 const STACK: usize = 64 << 20;
 
 impl Signatures {
+    /// Whether a function of this name compares neighbouring pixels.
+    pub(super) fn takes_derivatives(&self, name: &str) -> bool {
+        self.functions.get(name).is_some_and(|[signature, _]| signature.implicit_derivatives)
+    }
+
     /// The same under other names: those that `name` exchanges.
     pub(super) fn renamed(self, name: impl Fn(&str) -> Option<String>) -> Signatures {
         let new = |(old, signatures): (String, [Signature; 2])| (name(&old).unwrap_or(old), signatures);
@@ -124,20 +130,26 @@ type ParseError = (usize, String);
 pub const CAPABILITIES: naga::valid::Capabilities = naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32;
 
 /// Parses and validates a text by itself, on a large stack, and reads the signatures of its functions, none of which is generic. The
-/// text's nesting is bounded before.
+/// text's nesting is bounded before, and its first `own` bytes are the user's.
 ///
 /// # Errors
-/// What naga has against it, and at which byte.
-pub(super) fn judge(text: &str) -> Result<Signatures, (usize, String)> {
+/// What is wrong with it, and at which byte.
+pub(super) fn judge(text: &str, own: usize) -> Result<Signatures, (usize, String)> {
+    // What is known of the types is said before what naga says.
+    let told = |complaint: (usize, String)| match explain(text, own) {
+        Err(Some(better)) => better,
+        _ => complaint,
+    };
     let work = || {
-        let module = parse(text)?;
+        let module =
+            parsed(text).map_err(|error| if error.is_of_types { told(error.complaint) } else { error.complaint })?;
         let too_large = module.types.iter().find(|(_, ty)| ty.inner.size(module.to_ctx()) > MAX_TYPE_BYTES);
         if let Some((handle, _)) = too_large {
             let at = module.types.get_span(handle).to_range().map_or(0, |range| range.start);
             return Err((at, "a value of this type is too large".into()));
         }
         let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), CAPABILITIES);
-        validator.validate(&module).map_err(|e| complaint::of_validator(&module, text, &e))?;
+        validator.validate(&module).map_err(|e| told(complaint::of_validator(&module, text, &e)))?;
         let both = |(name, signature): (String, Signature)| (name, [signature.clone(), signature]);
         Ok(Signatures { functions: signatures(&module).into_iter().map(both).collect() })
     };
@@ -167,18 +179,28 @@ fn locate((at, message): ParseError, sources: &[Source], joined: &str) -> Librar
     LibraryProblem { file: sources.last().map_or("", |s| s.path).into(), line, message }
 }
 
-fn parse(text: &str) -> Result<naga::Module, ParseError> {
+/// What the parser has against a text.
+struct Refusal {
+    complaint: ParseError,
+    /// Whether it is a matter of types.
+    is_of_types: bool,
+}
+
+fn parsed(text: &str) -> Result<naga::Module, Refusal> {
     let mut options = naga::front::wgsl::Options::new();
     options.parse_doc_comments = true;
     naga::front::wgsl::Frontend::new_with_options(options).parse(text).map_err(|e| {
         let at = e.location(text).map(|location| location.offset as usize);
-        let notes: Vec<&str> = e.labels().map(|(_, label)| label).filter(|label| !label.is_empty()).collect();
-        complaint::of_parser(text, at, e.message(), &notes)
+        let notes: Vec<&str> = e.labels().map(|(_, label)| label).collect();
+        Refusal {
+            complaint: complaint::of_parser(text, at, e.message(), &notes),
+            is_of_types: complaint::is_of_types(e.message()),
+        }
     })
 }
 
 fn read_module(text: &str) -> Result<HashMap<String, Signature>, ParseError> {
-    parse(text).map(|module| signatures(&module))
+    parsed(text).map(|module| signatures(&module)).map_err(|refusal| refusal.complaint)
 }
 
 /// The signatures of a module's functions by name.

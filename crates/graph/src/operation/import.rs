@@ -60,18 +60,21 @@ fn complete(groups: &BTreeMap<String, Group>, functions: &BTreeMap<String, Strin
     Ok(())
 }
 
-/// The edit that brings a file's groups into a document, and the id that its group has there. Groups and functions that the document
-/// has already are taken for the same when they are the same; where another one has the id, the new one gets a free id.
+/// A document with one node, which is a file's group: what [`super::paste`] puts into another document, with all that the group needs.
 ///
 /// # Errors
 /// The file lacks a group or a function that it needs.
-pub fn import_group(document: &Document, file: &GroupFile) -> Result<(Edit, String), Refusal> {
-    complete(&file.groups, &file.functions)?;
-    let (edits, names) = import(document, &file.groups, &file.functions);
-    match names.groups.get(&file.group) {
-        Some(id) => Ok((Edit::Many(edits), id.clone())),
-        None => refuse(format!("the file is about the group `{}` and does not have it", file.group)),
+pub fn group_as_copied(file: GroupFile) -> Result<Document, Refusal> {
+    let GroupFile { group, groups, functions } = file;
+    complete(&groups, &functions)?;
+    if !groups.contains_key(&group) {
+        return refuse(format!("the file is about the group `{group}` and does not have it"));
     }
+    let mut copied = Document::new("");
+    copied.graph.nodes.insert(group.clone(), Node::new(&format!("group/{group}")));
+    copied.graph.layout.insert(group, [0.0; 2]);
+    (copied.groups, copied.functions) = (groups, functions);
+    Ok(copied)
 }
 
 /// Ids in a document of what was brought into it, by the old ones.

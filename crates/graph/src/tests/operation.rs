@@ -8,8 +8,8 @@ use crate::document::{Comment, Document, Frame, Group, GroupOutput, Node, Parame
 use crate::edit::{Edit, apply};
 use crate::file::{from_json, group_from_json, group_to_json, to_json};
 use crate::operation::{
-    GroupSide, Pick, can_connect, collapse, copy, export_group, import_group, insert_on_link, paste, remove_and_heal,
-    rename_socket, ungroup,
+    GroupSide, Pasted, Pick, can_connect, collapse, copy, export_group, group_as_copied, insert_on_link, paste,
+    remove_and_heal, rename_socket, ungroup,
 };
 use crate::value::{Type, Value};
 
@@ -137,38 +137,97 @@ fn groups_go_into_files_and_other_documents() {
     assert_eq!(group_from_json(&text).expect("a file"), file);
     assert!(group_from_json(&text.replace("\"group\": \"all\"", "\"group\": \"gone\"")).is_err());
     // Into an empty document, into one that has it, and into one that has another `part`.
-    let (edit, id) = import_group(&document(&[], &[]), &file).expect("an import");
-    let other = made(&document(&[], &[]), &edit);
-    assert_eq!((id.as_str(), &other.groups), ("all", &file.groups));
-    assert_eq!(import_group(&d, &file).expect("an import"), (Edit::Many(vec![]), "all".into()));
+    let copied = group_as_copied(file.clone()).expect("whole");
+    let with = |d: &Document| {
+        let Pasted { edit, pick, .. } = paste(d, small(), None, &copied, [7.0, 8.0]).expect("an edit");
+        let after = made(d, &edit);
+        let [id] = &pick.nodes[..] else { panic!("one node: {pick:?}") };
+        assert_eq!((after.graph.nodes[id].node.as_str(), after.graph.layout[id]), ("group/all", [7.0, 8.0]));
+        after
+    };
+    assert_eq!(with(&document(&[], &[])).groups, file.groups);
+    assert_eq!(with(&d).groups, d.groups);
     let mut clash = document(&[], &[]);
     clash.groups.insert("part".into(), Group::new("Another"));
-    let (edit, id) = import_group(&clash, &file).expect("an import");
-    let after = made(&clash, &edit);
-    assert_eq!(id, "all");
+    let after = with(&clash);
     assert_eq!(after.groups["part"], clash.groups["part"]);
     assert_eq!(after.groups["all"].graph.nodes.values().filter(|n| n.node == "group/part_2").count(), 1);
+    // A file that lacks what it needs.
+    let mut torn = file.clone();
+    torn.groups.remove("part");
+    assert!(group_as_copied(torn).expect_err("torn").0.contains("`group/part`, which is missing"));
 }
 
 #[test]
 fn nodes_are_copied_with_their_wires() {
     let d = chain();
-    let text = copy(&d, None, &Pick::nodes(ids(&["c", "m", "surface"])));
-    let copied = from_json(&text).expect("a document");
-    assert_eq!((copied.graph.nodes.len(), copied.graph.links.len(), copied.parameters.len()), (3, 2, 0));
-    let (edit, new) = paste(&d, small(), None, &text, [500.0, 600.0]).expect("an edit");
+    let copied = copy(&d, None, &Pick::nodes(ids(&["c", "m", "surface"])));
+    assert_eq!(from_json(&to_json(&copied)).expect("a document"), copied);
+    assert_eq!((copied.graph.nodes.len(), copied.graph.links.len(), copied.parameters.len()), (3, 2, 1));
+    let Pasted { edit, pick: new, notes } = paste(&d, small(), None, &copied, [500.0, 600.0]).expect("an edit");
     assert_eq!(new.nodes, ["c_2", "m_2"], "a material has one surface");
+    assert_eq!(
+        notes,
+        ["“Surface” was left out, as the material has a surface", "the parameter `weight` came along as `weight_2`"]
+    );
     let after = made(&d, &edit);
+    let names = |d: &Document| d.parameters.iter().map(|p| format!("{} {}", p.name, p.socket)).collect::<Vec<_>>();
+    assert_eq!(names(&after), ["weight m.t", "weight_2 m_2.t"]);
     assert_eq!(after.graph.incoming(&socket("m_2.a")), Some(&socket("c_2.out")));
     assert_eq!((after.graph.layout["c_2"], after.graph.layout["m_2"]), ([500.0, 600.0], [600.0, 600.0]));
-    assert!(paste(&d, small(), None, "not a document", [0.0; 2]).is_err());
+    assert!(paste(&d, small(), None, &Document::new(""), [0.0; 2]).is_err());
     // A group goes along, but not into itself.
     let d = made(&d, &collapse(&d, small(), None, &ids(&["m", "n"]), "Two").expect("a group"));
-    let text = copy(&d, None, &Pick::nodes(ids(&["two"])));
-    let (edit, _) = paste(&document(&[], &[]), small(), None, &text, [0.0; 2]).expect("an edit");
-    assert!(made(&document(&[], &[]), &edit).groups.contains_key("two"));
-    let why = paste(&d, small(), Some("two"), &text, [0.0; 2]).expect_err("a refusal");
+    let copied = copy(&d, None, &Pick::nodes(ids(&["two"])));
+    let Pasted { edit, .. } = paste(&document(&[], &[]), small(), None, &copied, [0.0; 2]).expect("an edit");
+    let other = made(&document(&[], &[]), &edit);
+    assert!(other.groups.contains_key("two"));
+    assert_eq!(names(&other), ["weight two.weight"], "a group's input is offered there, too");
+    let why = paste(&d, small(), Some("two"), &copied, [0.0; 2]).expect_err("a refusal");
     assert!(why.to_string().contains("a group cannot hold itself"));
+}
+
+#[test]
+fn what_was_cut_comes_back_with_its_parameters_as_they_were() {
+    let mut d = chain();
+    let of_m = Parameter { label: Some("Weight".into()), range: Some([0.2, 0.8]), ..d.parameters[0].clone() };
+    d.parameters = vec![of_m.clone(), Parameter { name: "Other".into(), socket: socket("n.t"), ..of_m.clone() }];
+    let copied = copy(&d, None, &Pick::nodes(ids(&["m", "n"])));
+    let removed: Vec<Edit> = ids(&["m", "n"]).into_iter().map(|id| Edit::RemoveNode { id }).collect();
+    let without = made(&d, &Edit::Many(removed));
+    assert!(without.parameters.is_empty());
+    let Pasted { edit, notes, .. } = paste(&without, small(), None, &copied, [0.0; 2]).expect("an edit");
+    assert_eq!(made(&without, &edit).parameters, d.parameters);
+    assert_eq!(notes, ["the parameter `weight` came along", "the parameter `Other` came along"]);
+    // Twice: each has a name of its own.
+    let twice = made(&made(&without, &edit), &paste(&d, small(), None, &copied, [0.0; 2]).expect("an edit").edit);
+    let names: Vec<&str> = twice.parameters.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["weight", "Other", "weight_2", "other"]);
+}
+
+#[test]
+fn parameters_that_cannot_come_along_are_told() {
+    let mut d = chain();
+    let copied = copy(&d, None, &Pick::nodes(ids(&["m"])));
+    d.groups.insert("g".into(), Group::new("g"));
+    let Pasted { edit, notes, .. } = paste(&d, small(), Some("g"), &copied, [0.0; 2]).expect("an edit");
+    assert_eq!(made(&d, &edit).parameters, d.parameters);
+    assert_eq!(notes, ["the parameter `weight` was left out, as only the top level's nodes have parameters"]);
+    // Wrong ones of a text from elsewhere.
+    let wrong = |change: &dyn Fn(&mut Document)| {
+        let mut copied = copied.clone();
+        change(&mut copied);
+        let Pasted { edit, notes, .. } = paste(&d, small(), None, &copied, [0.0; 2]).expect("an edit");
+        assert_eq!(made(&d, &edit).parameters.len(), 1, "{notes:?}");
+        assert_eq!(notes.len(), 1, "{notes:?}");
+        notes[0].clone()
+    };
+    let name = wrong(&|copied| copied.parameters[0].name = "no name".into());
+    assert!(name.contains("letters, digits and _"), "{name}");
+    let range = wrong(&|copied| copied.parameters[0].range = Some([1.0, 0.0]));
+    assert!(range.contains("its range"), "{range}");
+    let gone = wrong(&|copied| copied.parameters[0].socket = socket("m.gone"));
+    assert!(gone.contains("its input is not there"), "{gone}");
 }
 
 #[test]
@@ -178,8 +237,8 @@ fn frames_and_comments_are_copied_too() {
     d.graph.frames.insert("f".into(), Frame { title: "Rust".into(), rect: rect(0.0), ..Frame::default() });
     d.graph.comments.insert("n".into(), Comment { text: "why".into(), rect: rect(40.0), ..Comment::default() });
     let pick = Pick { frames: vec!["f".into()], comments: vec!["n".into()], ..Pick::default() };
-    let text = copy(&d, None, &pick);
-    let (edit, new) = paste(&d, small(), None, &text, [500.0, 600.0]).expect("an edit");
+    let copied = copy(&d, None, &pick);
+    let Pasted { edit, pick: new, .. } = paste(&d, small(), None, &copied, [500.0, 600.0]).expect("an edit");
     assert_eq!((new.frames.as_slice(), new.comments.as_slice()), (&["f_2".to_owned()][..], &["n_2".to_owned()][..]));
     let after = made(&d, &edit);
     assert_eq!(
@@ -245,8 +304,8 @@ proptest! {
             remove_and_heal(&d, small(), group, &pick),
             ungroup(&d, small(), group, &pick[0]),
         ];
-        let text = copy(&d, group, &Pick { nodes: pick.clone(), frames: pick.clone(), comments: pick });
-        edits.push(paste(&d, small(), group, &text, [1.0, 2.0]).map(|(edit, _)| edit));
+        let copied = copy(&d, group, &Pick { nodes: pick.clone(), frames: pick.clone(), comments: pick });
+        edits.push(paste(&d, small(), group, &copied, [1.0, 2.0]).map(|pasted| pasted.edit));
         for edit in edits.into_iter().flatten() {
             let mut after = d.clone();
             let undo = apply(&mut after, &edit).map_err(|e| TestCaseError::fail(format!("{e}: {edit:?}\n{}", to_json(&d))))?;

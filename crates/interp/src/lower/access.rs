@@ -336,7 +336,7 @@ impl<'m> Lower<'m> {
                 Ok(Value::Pointer(Pointer::Buffer(BufferPlace { buffer, offset: 0, inner, dynamic: Vec::new() })))
             }
             AddressSpace::WorkGroup => self.refuse("workgroup memory"),
-            other => self.refuse(format!("a variable of the address space {other:?}")),
+            _ => self.refuse("a variable that no fragment, vertex or compute shader of WGSL has"),
         }
     }
 

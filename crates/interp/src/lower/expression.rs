@@ -42,7 +42,7 @@ impl<'m> Lower<'m> {
             Expression::Literal(literal) => [self.literal(*literal)?].into(),
             Expression::Constant(constant) => self.global_value(self.module.constants[*constant].init)?,
             Expression::Override(_) => {
-                return self.refuse("an override constant whose value is not set (process the overrides first)");
+                return self.refuse("an override constant whose value is not set");
             }
             Expression::ZeroValue(ty) => self.zero(&self.module.types[*ty].inner)?,
             Expression::Compose { components, .. } => {
@@ -81,10 +81,10 @@ impl<'m> Lower<'m> {
                 }
                 all.into()
             }
-            Expression::Derivative { axis, ctrl, expr } => {
+            // Coarse ones may be of fewer places than fine ones, and need not: llvmpipe, too, takes all of the pixel's own row and column.
+            Expression::Derivative { axis, ctrl: _, expr } => {
                 let value = self.regs(frame, *expr)?;
-                let coarse = *ctrl == naga::DerivativeControl::Coarse;
-                value.iter().map(|r| self.derivative(*axis, coarse, *r)).collect::<Result<_>>()?
+                value.iter().map(|r| self.derivative(*axis, *r)).collect::<Result<_>>()?
             }
             Expression::Relational { fun, argument } => self.relational(frame, *fun, *argument)?,
             Expression::Math { fun, arg, arg1, arg2, arg3 } => {
@@ -114,9 +114,9 @@ impl<'m> Lower<'m> {
         Ok(Value::Regs(regs))
     }
 
-    fn derivative(&mut self, axis: naga::DerivativeAxis, coarse: bool, reg: Reg) -> Result<Reg> {
+    fn derivative(&mut self, axis: naga::DerivativeAxis, reg: Reg) -> Result<Reg> {
         let class = self.class(reg);
-        let along = |vertical| Op::Derivative { vertical, coarse };
+        let along = |vertical| Op::Derivative { vertical, coarse: false };
         match axis {
             naga::DerivativeAxis::X => self.emit(along(false), class, [reg, NONE, NONE]),
             naga::DerivativeAxis::Y => self.emit(along(true), class, [reg, NONE, NONE]),

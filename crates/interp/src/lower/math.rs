@@ -67,6 +67,15 @@ fn each(fun: MathFunction, scalar: Scalar) -> Option<Each> {
     }))
 }
 
+/// A function's name as WGSL has it: naga's begins with a capital.
+fn named(fun: MathFunction) -> String {
+    let mut name = format!("{fun:?}");
+    if let Some(first) = name.get_mut(..1) {
+        first.make_ascii_lowercase();
+    }
+    name
+}
+
 impl Lower<'_> {
     pub(super) fn math(
         &mut self,
@@ -77,7 +86,7 @@ impl Lower<'_> {
     ) -> Result<Regs> {
         use MathFunction as M;
         let Some(scalar) = scalar else {
-            return self.refuse(format!("{fun:?} of a value that is not made of scalars"));
+            return self.refuse(format!("`{}` of a value that is not made of scalars", named(fun)));
         };
         let class = self.class(args[0][0]);
         let signed = is_signed(scalar);
@@ -234,7 +243,7 @@ impl Lower<'_> {
             }
             M::Unpack4xI8 => self.unpack(args[0][0], 8, BitsOp::ExtractS),
             M::Unpack4xU8 => self.unpack(args[0][0], 8, BitsOp::ExtractU),
-            other => self.refuse(format!("the function {other:?}")),
+            other => self.refuse(format!("the function `{}`", named(other))),
         }
     }
 

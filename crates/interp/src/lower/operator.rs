@@ -97,7 +97,7 @@ impl<'m> Lower<'m> {
                 B::LessEqual => compare(CompareOp::LessEqual, a, b),
                 B::Greater => compare(CompareOp::Less, b, a),
                 B::GreaterEqual => compare(CompareOp::LessEqual, b, a),
-                other => return self.refuse(format!("the operator {other:?} on floats")),
+                _ => return self.refuse("an operator of whole numbers on floats"),
             };
             return self.emit(op, class, operands);
         }

@@ -54,3 +54,24 @@ fn given_steps_over_several_batches() {
         assert!((p[i] - (u[i] * u[i] + 1.5)).abs() < 1e-12);
     }
 }
+
+/// The kinds of derivatives in a block whose rows and columns change differently: all are of the pixel's own row and column, the coarse
+/// ones, too, as WGSL allows and llvmpipe has it.
+#[test]
+fn fine_and_coarse_ones_are_of_the_own_row_and_column() {
+    let source = "
+        @fragment fn main(@location(0) p: f32) -> @location(0) vec4f {
+            let x = dpdxCoarse(p) + 100.0 * dpdxFine(p) + 10000.0 * dpdx(p);
+            let y = dpdyCoarse(p) + 100.0 * dpdyFine(p) + 10000.0 * dpdy(p);
+            return vec4f(x, y, fwidthCoarse(p) + 100.0 * fwidthFine(p) + 10000.0 * fwidth(p), 0.0);
+        }";
+    let (module, info) = valid(source);
+    let program = Program::compile(&module, &info, Entry::EntryPoint("main")).expect("supported");
+    let mut out = Outputs::<f64>::default();
+    // Along x 1 above and 4 below, along y 2 on the left and 5 on the right.
+    let inputs = [Column::Float(&[0.0, 1.0, 2.0, 6.0][..])];
+    program.run(&inputs, 4, &mut out, &Resources::default(), Derivatives::Quads, Limits::default()).expect("runs");
+    assert_eq!(out.columns[0].to_f64(), [10101.0, 10101.0, 40404.0, 40404.0]);
+    assert_eq!(out.columns[1].to_f64(), [20202.0, 50505.0, 20202.0, 50505.0]);
+    assert_eq!(out.columns[2].to_f64(), [30303.0, 60606.0, 60606.0, 90909.0]);
+}

@@ -130,13 +130,21 @@ fn what_cannot_run_is_named() {
             "a multisampled texture",
         ),
         ("override k: f32; fn f() -> f32 { return k; }", "an override constant"),
-        ("fn f(x: i64) -> i64 { return x + 1li; }", "the type i64"),
-        ("enable f16; fn f(x: f16) -> f16 { return x; }", "the type f16"),
+        ("fn f(x: i64) -> i64 { return x + 1li; }", "the type i64, which cannot run on the CPU: use i32"),
+        ("fn f(x: u64) -> u64 { return x + 1lu; }", "the type u64, which cannot run on the CPU: use u32"),
+        ("fn f() -> i32 { return i32(1li + i64(2)); }", "the type i64"),
+        ("fn f(x: f32) -> f32 { var sum = 0lu; sum += u64(x); return f32(sum); }", "the type u64"),
+        ("enable f16; fn f(x: f16) -> f16 { return x; }", "the type f16, which cannot run on the CPU: use f32"),
+        ("fn f(x: f32) -> f32 { return subgroupAdd(x); }", "subgroup operations"),
+        ("fn f(x: f32) -> vec4u { return subgroupBallot(x > 0.0); }", "subgroup operations"),
+        ("fn f(x: f32) -> f32 { return quadSwapX(x); }", "subgroup operations"),
     ];
     for (source, what) in cases {
         let error = refused(source);
         assert!(error.contains(what), "{source}: {error}");
-        assert!(error.contains("`f`"), "{error}");
+        assert!(error.contains("`f`") && error.contains("CPU: "), "{error}");
+        // In the words of WGSL, without those of the parser's data.
+        assert!(!error.contains(['{', '(']), "{error}");
     }
     assert!(matches!(compile("fn f() {}", "g"), Err(Unsupported::Missing { .. })));
 }

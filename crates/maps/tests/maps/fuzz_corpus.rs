@@ -2,22 +2,23 @@
 
 use std::io::Cursor;
 
+use halfvector_maps::{Limits, decode};
 use image::ImageFormat;
 use tiff::encoder::{TiffEncoder, colortype};
 
 use crate::decode::{KINDS, file};
 
-/// Writes one small file of each kind into `$HALFVECTOR_CORPUS/decode_FORMAT/`, and with a profile where a format has one.
+/// One small file of each kind, and with a profile where a format has one, each of which decodes: written into `decode_FORMAT/` of
+/// `$HALFVECTOR_CORPUS`, where that names a folder.
 #[test]
 fn fuzz_corpus() {
-    let Some(folder) = std::env::var_os("HALFVECTOR_CORPUS") else {
-        println!("skipped: HALFVECTOR_CORPUS names no folder");
-        return;
-    };
     // Tests run in their package's folder; a relative path is meant from the project's root.
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+    let root = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    let corpus = std::env::var_os("HALFVECTOR_CORPUS").map(|folder| root.join(folder));
     let write = |format: &str, name: &str, bytes: &[u8]| {
-        let folder = std::path::Path::new(root).join(&folder).join(format!("decode_{format}"));
+        decode(bytes, Limits::default()).unwrap_or_else(|error| panic!("{format} {name}: {error}"));
+        let Some(corpus) = &corpus else { return };
+        let folder = corpus.join(format!("decode_{format}"));
         std::fs::create_dir_all(&folder).unwrap();
         std::fs::write(folder.join(name), bytes).unwrap();
     };

@@ -145,9 +145,7 @@ fn tangents_follow_the_surface() {
 /// ours have the same hand and on the mean nearly the same direction.
 #[test]
 fn the_helmet_has_the_tangents_it_says() {
-    let folder = std::env::var_os("HALFVECTOR_DATA")
-        .map_or_else(|| concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data").into(), std::path::PathBuf::from)
-        .join("models/FlightHelmet");
+    let folder = crate::data().join("models/FlightHelmet");
     let (Ok(text), Ok(bytes)) =
         (std::fs::read_to_string(folder.join("FlightHelmet.gltf")), std::fs::read(folder.join("FlightHelmet.bin")))
     else {

@@ -17,7 +17,7 @@ pub struct Difference {
 }
 
 /// The smallest square that a squared difference is divided by, beside the reference's own.
-const RELATIVE_FLOOR: f64 = 0.01;
+pub(super) const RELATIVE_FLOOR: f64 = 0.01;
 
 /// The difference of two pictures of equally many pixels, linear and finite. Where the standard error of each channel of
 /// their difference is known, what noise is expected to add is taken off `rmse` and `relative`: E[d^2] = D^2 + s^2 for

@@ -1,6 +1,8 @@
 //! What of the difference from a picture is not chance, where that picture's own noise is known: squares of differences with
 //! what noise adds taken off, how sure their mean is, and how large an error may be that could all be chance.
 
+use super::difference::RELATIVE_FLOOR;
+
 /// How many standard errors a mean is taken away from a measured one.
 const CAUTION: f64 = 2.0;
 
@@ -104,9 +106,136 @@ pub fn noisy_error(test: &[[f64; 3]], truth: &[[f64; 3]], standard_error: Option
     NoisyError { rms: Some(rms), bound: None, largest: Some(largest.max(rms)), at }
 }
 
+/// What of an error noise does not explain.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Beyond {
+    /// The error with what noise is expected to add taken off; 0 where chance may explain all of it.
+    pub error: f64,
+    /// Two standard errors more: it is hardly larger.
+    pub at_most: f64,
+    /// The error as it is, with the noise.
+    pub with_noise: f64,
+}
+
+/// What of RMSE and of the relative error (as in [`super::Difference`]) of two pictures the noise of known standard errors does not
+/// explain. `brightness` is what the relative error is relative to. Of a reference that is noisy itself that is not its own pixel:
+/// one that happens to be dark would count more, and its difference, which is noise, with it; [`surroundings`] do.
+///
+/// How sure the means are is found of the model of [`CleanSquares`] and of how the pixels scatter, whichever says less: few samples
+/// of rare and bright light scatter more than a Gauss curve. What is beyond four standard errors of its pixel is no such scatter.
+pub fn beyond_noise(
+    test: &[[f64; 3]],
+    reference: &[[f64; 3]],
+    standard_error: &[[f64; 3]],
+    brightness: &[[f64; 3]],
+) -> [Beyond; 2] {
+    let (mut plain, mut relative) = (Scatter::default(), Scatter::default());
+    for (((t, r), s), b) in test.iter().zip(reference).zip(standard_error).zip(brightness) {
+        let difference: [f64; 3] = std::array::from_fn(|c| t[c] - r[c]);
+        plain.add(difference, *s);
+        let scale = b.map(|b| 1.0 / (b * b + RELATIVE_FLOOR).sqrt());
+        let scaled = |x: [f64; 3]| std::array::from_fn(|c| x[c] * scale[c]);
+        relative.add(scaled(difference), scaled(*s));
+    }
+    [plain, relative].map(|scatter| scatter.beyond())
+}
+
+/// Squared differences without noise, and the variance of their sum.
+#[derive(Default)]
+struct Scatter {
+    squares: CleanSquares,
+    variance: f64,
+    /// With noise.
+    plain: f64,
+}
+
+impl Scatter {
+    fn add(&mut self, difference: [f64; 3], standard_error: [f64; 3]) {
+        let mut pixel = CleanSquares::default();
+        pixel.add(difference, [0.0; 3], standard_error);
+        let noise: f64 = standard_error.iter().map(|s| s * s).sum();
+        let scatter = pixel.square.abs().min(CAUTION_OF_ONE * CAUTION_OF_ONE * noise);
+        self.variance += pixel.variance.max(scatter * scatter);
+        self.plain += difference.iter().map(|d| d * d).sum::<f64>();
+        self.squares.square += pixel.square;
+        self.squares.count += pixel.count;
+    }
+
+    fn beyond(&self) -> Beyond {
+        let squares = CleanSquares { variance: self.variance, ..self.squares };
+        let error = if squares.may_be_chance() { 0.0 } else { squares.rms() };
+        Beyond { error, at_most: squares.bound(), with_noise: squares.root(self.plain) }
+    }
+}
+
+/// The mean of the pixels around each pixel of a picture, two to each side, without itself: how bright it is there, as its own noise does
+/// not tell. `width` is the pixels in a row; a pixel alone is its own surroundings.
+pub fn surroundings(picture: &[[f64; 3]], width: usize) -> Vec<[f64; 3]> {
+    const REACH: usize = 2;
+    let width = width.clamp(1, picture.len().max(1));
+    let near = |at: usize, end: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(end);
+    let mean = |i: usize| {
+        let (mut sum, mut count) = ([0.0; 3], 0.0);
+        for y in near(i / width, picture.len().div_ceil(width)) {
+            for pixel in
+                near(i % width, width).filter_map(|x| picture.get(y * width + x).filter(|_| y * width + x != i))
+            {
+                sum = std::array::from_fn(|c| sum[c] + pixel[c]);
+                count += 1.0;
+            }
+        }
+        if count > 0.0 { sum.map(|x: f64| x / count) } else { picture[i] }
+    };
+    (0..picture.len()).map(mean).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Pictures of few paths that find a small light now and then: noise is no error, in dark places neither, and a tenth of
+    /// brightness is one.
+    #[test]
+    fn rare_light_is_noise_in_all_figures() {
+        const SIDE: usize = 64;
+        let mut state = 7_u64;
+        let mut uniform = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut drawn = |samples: usize, factor: f64| {
+            let pixel = |_| {
+                let seen: Vec<f64> =
+                    (0..samples).map(|_| factor * if uniform() < 0.1 { 2.0 } else { 0.02 * uniform() }).collect();
+                let mean = seen.iter().sum::<f64>() / samples as f64;
+                let square = seen.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (samples - 1) as f64;
+                ([mean; 3], [(square / samples as f64).sqrt(); 3])
+            };
+            (0..SIDE * SIDE).map(pixel).unzip::<[f64; 3], [f64; 3], Vec<_>, Vec<_>>()
+        };
+        for samples in [2, 4, 16] {
+            let (reference, of_reference) = drawn(samples, 1.0);
+            for factor in [1.0, 2.0] {
+                let (test, of_test) = drawn(samples, factor);
+                let both: Vec<[f64; 3]> =
+                    of_test.iter().zip(&of_reference).map(|(a, b)| std::array::from_fn(|c| a[c].hypot(b[c]))).collect();
+                let beyond = beyond_noise(&test, &reference, &both, &surroundings(&reference, SIDE));
+                let plain = super::super::difference(&test, &reference, None);
+                println!("{samples} samples, factor {factor}: {beyond:?} of {plain:?}");
+                let truth = 0.209 * (factor - 1.0);
+                assert!(beyond[0].at_most >= truth && beyond[0].at_most < plain.rmse, "{samples}: {beyond:?}");
+                if factor == 1.0 {
+                    assert_eq!(beyond.map(|beyond| beyond.error), [0.0; 2], "{samples}: {beyond:?} of {plain:?}");
+                    assert!((beyond[0].with_noise / plain.rmse - 1.0).abs() < 1e-12);
+                } else if samples == 16 {
+                    assert!((beyond[0].error / truth - 1.0).abs() < 0.3 && beyond[1].error > 0.5, "{beyond:?}");
+                }
+            }
+        }
+        assert_eq!(surroundings(&[[1.0; 3]], 1), [[1.0; 3]]);
+        assert_eq!(surroundings(&[], 0), [[0.0; 3]; 0]);
+        assert_eq!(surroundings(&[[1.0; 3], [3.0; 3], [5.0; 3]], 3)[0], [4.0; 3]);
+    }
 
     #[test]
     fn without_noise_errors_are_plain() {

@@ -21,8 +21,11 @@ const FACTOR: f64 = 8.0;
 /// How far neighbours lie in units of the last place of the precision.
 const ULPS: f64 = 2.0;
 
-/// Neighbours of each point.
+/// Neighbours of each point, that far away.
 const NEIGHBOURS: usize = 8;
+
+/// Neighbours anywhere within that distance, of points that seem wrong: what goes up and down within it may be the same at its ends.
+const WITHIN: usize = 32;
 
 /// Points at which one output is looked at closely.
 const SUSPECTS: usize = 16;
@@ -276,17 +279,34 @@ impl Tally {
         let off: Vec<usize> = (0..points.count).filter(is_off).collect();
         let mut row = vec![0; points.count];
         off.iter().enumerate().for_each(|(number, point)| row[*point] = number);
-        let change = change(trace, precision, &points.of_numbers(&off), &part(&exact, &off), random)?;
+        let at_off = part(&exact, &off);
+        let mut change = change(trace, precision, &points.of_numbers(&off), &at_off, random)?;
+        let beyond = |value: usize, point: usize| match chosen.jump(point) {
+            // The other side is an ulp away.
+            Some(jump) if jump.value == value => jump.height(),
+            _ => 0.0,
+        };
+        let seems_wrong = |&number: &usize| {
+            let point = off[number];
+            (0..trace.values.len()).any(|value| {
+                let there = exact[value][point];
+                let error = (narrow[value][point] - there).abs();
+                error > FACTOR * change[value][number].max(beyond(value, point)) + tolerance(value, there)
+            })
+        };
+        let wrong: Vec<usize> = (0..off.len()).filter(seems_wrong).collect();
+        let wrong_points: Vec<usize> = wrong.iter().map(|number| off[*number]).collect();
+        let closer = change_within(trace, precision, &points.of_numbers(&wrong_points), &part(&at_off, &wrong))?;
+        for (change, closer) in change.iter_mut().zip(&closer) {
+            wrong.iter().zip(closer).for_each(|(number, closer)| change[*number] = change[*number].max(*closer));
+        }
         self.rms.resize(rms.len(), 0.0);
         self.rms.iter_mut().zip(&rms).for_each(|(most, rms)| *most = most.max(*rms));
         for (value, Value { node, .. }) in trace.values.iter().enumerate() {
             for point in 0..points.count {
-                // The other side is an ulp away.
-                let beyond = match chosen.jump(point) {
-                    Some(jump) if trace.values[jump.value].node != *node => continue,
-                    Some(jump) if jump.value == value => jump.height(),
-                    _ => 0.0,
-                };
+                if chosen.jump(point).is_some_and(|jump| trace.values[jump.value].node != *node) {
+                    continue;
+                }
                 let (narrow, there) = (narrow[value][point], exact[value][point]);
                 self.counts[value].take(precision, narrow, there);
                 let tolerance = tolerance(value, there);
@@ -302,7 +322,7 @@ impl Tally {
                 } else if !narrow.is_finite() {
                     self.suspects.entry(value).or_default().push(suspect);
                 } else if suspect.error() > tolerance && !is_pole {
-                    if suspect.error() > FACTOR * change[value][row[point]].max(beyond) + tolerance {
+                    if suspect.error() > FACTOR * change[value][row[point]].max(beyond(value, point)) + tolerance {
                         self.suspects.entry(value).or_default().push(suspect);
                     } else {
                         let kept = self.excused.entry(value).or_insert(suspect);
@@ -314,6 +334,44 @@ impl Tally {
             }
         }
         Ok(())
+    }
+}
+
+/// The largest change of each value between each point and others within [`ULPS`] of it, in exact arithmetic.
+fn change_within(
+    trace: &Trace<'_>,
+    precision: Precision,
+    points: &Points,
+    exact: &[Vec<f64>],
+) -> Result<Vec<Vec<f64>>, StabilityError> {
+    let mut change = vec![vec![0.0_f64; points.count]; exact.len()];
+    if points.count == 0 {
+        return Ok(change);
+    }
+    // Its own: what is tried elsewhere does not depend on what seems wrong.
+    let mut random = Random::new(2);
+    for _ in 0..WITHIN {
+        let mut near = points.clone();
+        for (input, column) in trace.inputs.iter().zip(&mut near.columns) {
+            if input.is_float() {
+                column.iter_mut().for_each(|x| *x = precision.moved(*x, ULPS * (2.0 * random.unit() - 1.0)));
+            }
+        }
+        widen(&mut change, trace.run::<f64>(&near)?, exact);
+    }
+    Ok(change)
+}
+
+/// Takes in how far values are from others.
+fn widen(change: &mut [Vec<f64>], there: Vec<Vec<f64>>, exact: &[Vec<f64>]) {
+    for ((change, there), exact) in change.iter_mut().zip(there).zip(exact) {
+        for ((change, there), exact) in change.iter_mut().zip(there).zip(exact) {
+            // Not of what is no number.
+            let difference = (there - exact).abs();
+            if difference > *change {
+                *change = difference;
+            }
+        }
     }
 }
 
@@ -344,14 +402,7 @@ fn change(
                 column.iter_mut().zip(ways).for_each(|(x, way)| *x = precision.moved(*x, ulps * way));
             }
         }
-        for (value, there) in trace.run::<f64>(&near)?.into_iter().enumerate() {
-            for (point, there) in there.into_iter().enumerate() {
-                let difference = (there - exact[value][point]).abs();
-                if difference > change[value][point] {
-                    change[value][point] = difference;
-                }
-            }
-        }
+        widen(&mut change, trace.run::<f64>(&near)?, exact);
     }
     Ok(change)
 }

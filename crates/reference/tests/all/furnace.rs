@@ -21,7 +21,8 @@ fn mean(
     let whole: Vec<usize> = (0..picture.pixels.len()).filter(|i| picture.pixels[*i][3] == 1.0).collect();
     let n = whole.len() as f64;
     let sum: f64 = whole.iter().map(|i| picture.pixels[*i][1]).sum();
-    let variance: f64 = whole.iter().map(|i| picture.standard_error[*i][1].powi(2)).sum();
+    let errors = picture.standard_error.as_ref().expect("of many samples");
+    let variance: f64 = whole.iter().map(|i| errors[*i][1].powi(2)).sum();
     (sum / n, variance.sqrt() / n)
 }
 

@@ -50,7 +50,8 @@ fn the_tables_of_reflected_light() {
             for c in 0..3 {
                 let gap = other.as_ref().map_or(0.0, |other| (mean(other, c) - mean(&picture, c)).abs());
                 let mean = mean(&picture, c);
-                let error = picture.standard_error.iter().map(|error| error[c].powi(2)).sum::<f64>().sqrt() / 16.0;
+                let error =
+                    picture.standard_error.iter().flatten().map(|error| error[c].powi(2)).sum::<f64>().sqrt() / 16.0;
                 let bar = if n_dot_v < 0.3 { GRAZING_BAR } else { BAR };
                 let bar = (bar * expected[c]).max(gap);
                 let z = ((mean - expected[c]).abs() - bar).max(0.0) / error;

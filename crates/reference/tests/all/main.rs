@@ -7,6 +7,8 @@ mod displacement;
 mod furnace;
 mod ibl_tables;
 mod mitsuba;
+#[path = "../../../../tests/tests/models.rs"]
+mod models;
 mod picture;
 mod stability;
 

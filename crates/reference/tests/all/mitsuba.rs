@@ -80,7 +80,8 @@ fn compare_one(
     };
     let on_ball: Vec<usize> = (0..size * size).filter(|i| ball(*i)).collect();
     let pick = |all: &[[f64; 3]]| -> Vec<[f64; 3]> { on_ball.iter().map(|i| all[*i]).collect() };
-    let (ours, errors, theirs) = (pick(&ours.radiance()), pick(&ours.standard_error), pick(&theirs));
+    let (ours, errors, theirs) =
+        (pick(&ours.radiance()), pick(ours.standard_error.as_ref().expect("of many samples")), pick(&theirs));
     let their_errors: Vec<[f64; 3]> =
         theirs.iter().map(|pixel| pixel.map(|x| x * relative_error / coarse as f64)).collect();
     let both: Vec<[f64; 3]> =

@@ -45,7 +45,13 @@ fn lights_and_their_shadows() {
     let middle = 8 * 16 + 8;
     assert!((lit.pixels[middle][0] - std::f64::consts::FRAC_1_PI).abs() < 1e-12);
     assert_eq!((lit.pixels[middle][3], lit.pixels[0]), (1.0, [0.0; 4]));
-    assert!(lit.standard_error[middle][0] < 1e-9);
+    assert!(lit.standard_error.as_ref().is_some_and(|errors| errors[middle][0] < 1e-9));
+    // One sample has no spread, two have.
+    let mut few = Reference::new(&scene, None, options).expect("a sound scene");
+    few.add_samples(1, &|_| {}).expect("rendered");
+    assert_eq!((few.picture().standard_error, few.picture().noise()), (None, None));
+    few.add_samples(1, &|_| {}).expect("rendered");
+    assert!(few.picture().standard_error.is_some() && few.picture().noise().is_some());
     // A small ball behind the camera's side, between plane and light.
     scene.lights = vec![parse_light("point:0,2,6:40").expect("a light")];
     let open = look(&scene, options);

@@ -19,28 +19,6 @@ fn materials(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-/// An example as it stands, or, where it reads others' models, a copy that finds them in the data; none where they are not there. A
-/// copy, for what an example says is `../shared/data` beside the project, and the data may lie elsewhere.
-fn with_models(example: PathBuf) -> Option<PathBuf> {
-    let name = example.file_name()?.to_str()?;
-    if !name.starts_with("flight-helmet") {
-        return Some(example);
-    }
-    let models = data("models")?;
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("flight-helmet");
-    std::fs::create_dir_all(&folder).expect("a folder for the copy");
-    // The scene names the material.
-    for name in ["flight-helmet.scene.json", "flight-helmet-leather.material.json"] {
-        let text = std::fs::read_to_string(example.with_file_name(name)).expect("an example");
-        let found = text.replace("../../shared/data/models", models.to_str().expect("a path of characters"));
-        assert_ne!(found, text, "{name} has its models elsewhere");
-        // Renamed into place, for another process may be reading it.
-        let written = folder.join(format!("{name}.{}", std::process::id()));
-        std::fs::write(&written, found).and_then(|()| std::fs::rename(&written, folder.join(name))).expect("a copy");
-    }
-    Some(folder.join(name))
-}
-
 fn judged(path: &Path) -> Stability {
     let document = halfvector_graph::file::load(path).unwrap_or_else(|e| panic!("{e}"));
     let folder = path.parent().expect("a folder");
@@ -138,7 +116,8 @@ fn planted_faults_are_found_and_named() {
 fn other_examples_are_quiet() {
     let mut loud = materials("examples");
     loud.extend(materials("examples/nodes"));
-    let mut loud: Vec<PathBuf> = loud.into_iter().filter_map(with_models).collect();
+    let mut loud: Vec<PathBuf> =
+        loud.into_iter().filter_map(|path| crate::models::with_models(path, || data("models"))).collect();
     loud.retain(|path| !judged(path).unstable.is_empty());
     assert!(loud.is_empty(), "{loud:?}");
 }
@@ -423,6 +402,23 @@ fn a_cancellation_is_no_underflow() {
     let judged = judged_function("let tiny = (uv.x + 5.0) * 1e-25; return tiny * tiny;");
     let [found] = judged.unstable.as_slice() else { panic!("{judged:?}") };
     assert!(found.underflows >= 1024, "{found:?}");
+}
+
+/// What goes up and down within 2 ulp of an input is excused by that, though it is the same at the ends of that way, and told as an edge:
+/// strokes finer than f16 tells coordinates apart, and a sine that turns once from one number of f32 to the next.
+#[test]
+fn what_is_finer_than_the_numbers_is_an_edge() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/brushed-aluminium.material.json");
+    let document = halfvector_graph::file::load(&path).unwrap_or_else(|e| panic!("{e}"));
+    let sphere = MeshSource::Builtin(BuiltinMesh::Sphere);
+    let scene = Scene::from_material(document, Path::new(""), &sphere).unwrap_or_else(|e| panic!("{e}"));
+    let judged = |precision| stability(&scene, 0, precision).unwrap_or_else(|e| panic!("{e}"));
+    let (half, single) = (judged(Precision::Half), judged(Precision::Single));
+    assert!(half.unstable.is_empty(), "{:?}", half.unstable);
+    assert_eq!(edge_nodes(&half), ["strokes"]);
+    assert_eq!(single, Stability::default());
+    let sine = judged_function("return sin(uv.x * 52707180.0);");
+    assert_eq!((unstable_nodes(&sine), edge_nodes(&sine)), (vec![], vec!["f0"]), "{sine:?}");
 }
 
 /// What f32 does well f16 may not: a product beyond its largest number. What f16 computes well is not named.

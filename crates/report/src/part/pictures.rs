@@ -208,7 +208,7 @@ struct Example {
     name: String,
     size: u32,
     truth: Vec<[f64; 3]>,
-    noise: Vec<[f64; 3]>,
+    noise: Option<Vec<[f64; 3]>>,
     baked: Option<Arc<BakedEnvironment>>,
     specialised: View,
     unspecialised: View,
@@ -266,7 +266,7 @@ impl Example {
     /// Draws the example again and again, each view and the processor in turns, and holds the pictures against the truth and each other.
     fn rows(&self, station: Option<&Station>, run: &Run<'_>) -> Vec<Row> {
         let against = "the reference";
-        let noise = Some(self.noise.as_slice());
+        let noise = self.noise.as_deref();
         let drawn = |view: &View| match &view.picture {
             Some(Ok(picture)) => radiance(picture),
             _ => Vec::new(),
@@ -413,7 +413,7 @@ mod tests {
             name: "ball.material".into(),
             size: 4,
             truth: vec![[1.0; 3]; 16],
-            noise: vec![[0.0; 3]; 16],
+            noise: Some(vec![[0.0; 3]; 16]),
             baked: kept.baked(&scene),
             specialised: view(&scene),
             unspecialised: view(&scene),

@@ -405,6 +405,7 @@ mod tests {
         assert!(largest("d_ggx f32") < 8.0, "{:?}", of("d_ggx f32"));
         assert!(largest("d_ggx f16") > largest("d_ggx f32"));
         let Some(device) = of("d_ggx f32 device") else {
+            assert!(std::env::var("HALFVECTOR_REQUIRE_GPU").as_deref() != Ok("1"), "no GPU");
             println!("skipped: no GPU");
             return;
         };

@@ -1,5 +1,7 @@
 //! Every built-in shape is closed where it should be, faces outwards, carries a picture upright, and has sound tangents.
 
+use glam::Vec2;
+
 use super::*;
 
 fn triangles(mesh: &Mesh) -> impl Iterator<Item = [usize; 3]> + '_ {
@@ -215,4 +217,11 @@ fn broken_meshes_say_what_is_wrong() {
     let mesh = Mesh::build(MeshData { normals: Some(vec![[f32::NAN; 3]; 3]), ..good }).unwrap();
     assert!(mesh.normals.iter().flatten().chain(mesh.tangents.iter().flatten()).all(|x| x.is_finite()));
     assert_eq!(Mesh::build(MeshData::default()).unwrap().bounds(), None);
+}
+
+/// The place in a picture for a direction on the unit sphere: u = 1/2 + atan2(x, z) / (2 pi), v = acos(y) / pi, so that
+/// a picture stands upright and unmirrored when the sphere is seen from outside, its middle at +Z.
+fn sphere_uv(direction: Vec3) -> Vec2 {
+    let turns = direction.x.atan2(direction.z) / (2.0 * std::f32::consts::PI);
+    Vec2::new(0.5 + turns, direction.y.clamp(-1.0, 1.0).acos() / std::f32::consts::PI)
 }

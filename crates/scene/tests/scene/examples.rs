@@ -26,28 +26,6 @@ fn files(ending: &str) -> Vec<PathBuf> {
     files
 }
 
-/// An example as it stands, or, where it reads others' models, a copy that finds them in the data; none where they are not there. A
-/// copy, for what an example says is `../shared/data` beside the project, and the data may lie elsewhere.
-fn with_models(example: PathBuf) -> Option<PathBuf> {
-    let name = example.file_name()?.to_str()?;
-    if !name.starts_with("flight-helmet") {
-        return Some(example);
-    }
-    let models = data("models")?;
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("flight-helmet");
-    std::fs::create_dir_all(&folder).expect("a folder for the copy");
-    // The scene names the material.
-    for name in ["flight-helmet.scene.json", "flight-helmet-leather.material.json"] {
-        let text = std::fs::read_to_string(example.with_file_name(name)).expect("an example");
-        let found = text.replace("../../shared/data/models", models.to_str().expect("a path of characters"));
-        assert_ne!(found, text, "{name} has its models elsewhere");
-        // Renamed into place, for another process may be reading it.
-        let written = folder.join(format!("{name}.{}", std::process::id()));
-        std::fs::write(&written, found).and_then(|()| std::fs::rename(&written, folder.join(name))).expect("a copy");
-    }
-    Some(folder.join(name))
-}
-
 fn scene(name: &str) -> Scene {
     load_scene(&examples().join(format!("{name}.scene.json"))).unwrap()
 }
@@ -76,7 +54,8 @@ fn materials_are_sound_and_in_the_programs_layout() {
 
 #[test]
 fn scenes_load() {
-    for path in files(".scene.json").into_iter().filter_map(with_models) {
+    for path in files(".scene.json").into_iter().filter_map(|path| crate::models::with_models(path, || data("models")))
+    {
         let scene = load_scene(&path).unwrap();
         assert!(!scene.objects.is_empty() && !scene.name.is_empty(), "{}", path.display());
         for material in &scene.materials {

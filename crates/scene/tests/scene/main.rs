@@ -6,5 +6,7 @@ mod gltf;
 mod gltf_material;
 mod hostile;
 mod images;
+#[path = "../../../../tests/tests/models.rs"]
+mod models;
 mod scene_file;
 mod support;

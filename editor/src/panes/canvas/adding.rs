@@ -11,7 +11,7 @@ use super::fit::{self, Loose};
 use super::sheet::{ROW, Row, Sheet, Side, shown};
 use super::{Canvas, Desk, edits, hit, view};
 use crate::action::Action;
-use crate::dropped::{Kind, is_picture, take};
+use crate::dropped::{Kind, no_picture, take};
 use crate::functions;
 use crate::palette::{self, Outcome};
 use crate::pictures;
@@ -96,11 +96,14 @@ impl Canvas {
 
     /// Gives a picture that is dropped on a node to its input, and adds a node for each that is dropped beside them, one below the
     /// other.
-    pub(super) fn take_dropped(&self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, pointer: Option<Pos2>) {
+    pub(super) fn take_dropped(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, pointer: Option<Pos2>) {
         let Some(at) = pointer.filter(|at| desk.lens.pane.contains(*at)) else { return };
         if let Some(socket) = picture_input(desk, sheet, at) {
-            let files = take(ui.ctx(), is_picture);
+            let files = take(ui.ctx(), |kind| kind == Kind::Picture);
             desk.actions.extend(files.first().map(|path| pictures::chosen(desk.session, &socket, path)));
+            if let Some(path) = take(ui.ctx(), |kind| kind == Kind::Radiance).first() {
+                self.say(ui, at, no_picture(path));
+            }
         }
         let mut all = edits::Arrival::default();
         let mut place = view::to_grid(desk.lens.to_canvas(at));

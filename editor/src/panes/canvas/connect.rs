@@ -11,6 +11,7 @@ use halfvector_graph::resolve::{NodeTypes, Types, resolve_types};
 use halfvector_graph::value::SocketType;
 
 use super::fit::{candidates, fits, refusal};
+use super::keys::TAB;
 use super::sheet::{Sheet, Side, shown};
 use super::{Canvas, Desk};
 use crate::palette::search::{self, Entry};
@@ -69,7 +70,9 @@ impl Canvas {
             Some((socket, _)) => BTreeSet::from([socket.node.clone()]),
             None => desk.session.selection().clone(),
         };
-        let Some(card) = subjects.first().and_then(|id| sheet.card(id)) else { return };
+        let Some(card) = subjects.first().and_then(|id| sheet.card(id)) else {
+            return self.say(ui, desk.lens.pane.center(), format!("Select a node to connect it. {TAB}"));
+        };
         let corner = desk.lens.to_screen(card.rect().right_top());
         let at = corner.clamp(desk.lens.pane.min, desk.lens.pane.max) + vec2(8.0, 0.0);
         let choices = choices(desk, sheet, &subjects, socket.as_ref());

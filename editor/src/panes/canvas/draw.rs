@@ -139,12 +139,7 @@ impl Brush<'_> {
             return;
         }
         if self.detail == Detail::Blocks {
-            self.painter.rect(rect, radius, self.colors.card, line, StrokeKind::Middle);
-            self.painter.rect_filled(
-                Rect::from_min_size(rect.min, vec2(rect.width(), HEADER * zoom)),
-                radius,
-                header_color,
-            );
+            self.painter.rect(rect, radius, header_color, line, StrokeKind::Middle);
             self.name_from_afar(card, rect);
             return;
         }
@@ -152,16 +147,17 @@ impl Brush<'_> {
             let shadow = rect.translate(vec2(0.0, 2.0 * zoom)).expand(1.5 * zoom);
             self.painter.rect_filled(shadow, radius, self.colors.shadow);
         }
-        self.painter.rect(rect, radius, self.colors.card, line, StrokeKind::Outside);
-        let header = Rect::from_min_size(rect.min, vec2(rect.width(), HEADER * zoom));
-        let top = CornerRadius { sw: 0, se: 0, ..radius };
-        self.painter.rect_filled(header, top, header_color);
         let mark = !card.problems.is_empty();
-        let room = header.width() - (MARGIN * 2.0 + if mark { 36.0 } else { 18.0 }) * zoom;
         if self.detail == Detail::Full {
+            self.painter.rect(rect, radius, self.colors.card, line, StrokeKind::Outside);
+            let header = Rect::from_min_size(rect.min, vec2(rect.width(), HEADER * zoom));
+            let top = CornerRadius { sw: 0, se: 0, ..radius };
+            self.painter.rect_filled(header, top, header_color);
+            let room = header.width() - (MARGIN * 2.0 + if mark { 36.0 } else { 18.0 }) * zoom;
             let at = pos2(header.left() + MARGIN * zoom, header.center().y);
             self.text(at, Align2::LEFT_CENTER, &card.title, TITLE_SIZE, self.colors.title, room);
         } else {
+            self.painter.rect(rect, radius, header_color, line, StrokeKind::Outside);
             self.name_from_afar(card, rect);
         }
         if card.has_picture() && self.detail == Detail::Full {
@@ -180,25 +176,35 @@ impl Brush<'_> {
         }
     }
 
-    /// The name on the whole card, in as many lines as there is room for, no smaller than it can be read.
+    /// The name on the whole card, as large as there is room for it, no smaller than it can be read. Words are not taken apart: a name
+    /// that has no room at all ends in dots.
     fn name_from_afar(&self, card: &Card, rect: Rect) {
-        let body = rect.with_min_y(rect.top() + HEADER * self.lens.view.zoom).shrink2(vec2(5.0, 1.0));
-        if body.width() < 16.0 || body.height() < 6.0 {
+        let body = rect.shrink2(vec2(4.0, 1.0));
+        if body.width() < 16.0 || body.height() < 7.0 {
             return;
         }
-        let laid = |size: f32| {
-            let format = TextFormat::simple(FontId::proportional(size), self.colors.text);
-            let mut job = LayoutJob::single_section(card.title.clone(), format);
-            let rows = (body.height() / (size * 1.2)).floor().max(1.0);
-            job.wrap = TextWrapping { max_width: body.width(), max_rows: rows as usize, ..TextWrapping::default() };
+        let laid = |text: &str, size: f32, wrap: TextWrapping| {
+            let format = TextFormat::simple(FontId::proportional(size), self.colors.title);
+            let mut job = LayoutJob::single_section(text.to_owned(), format);
+            job.wrap = wrap;
             self.painter.layout_job(job)
         };
-        let mut galley = laid(9.5);
-        if galley.elided || galley.size().y > body.height() {
-            galley = laid(7.0);
-        }
+        let longest = card.title.split_whitespace().map(|word| word.chars().count()).max().unwrap_or(0) as f32;
+        let all = card.title.chars().count() as f32;
+        let whole = |size: f32| {
+            // What certainly has no room is not laid out: there may be hundreds of cards.
+            let width = size * 0.56;
+            let lines = (all * width * 0.85 / body.width()).ceil();
+            if longest * width > body.width() || lines * size > body.height() {
+                return None;
+            }
+            let galley = laid(&card.title, size, TextWrapping::wrap_at_width(body.width()));
+            (galley.size().y <= body.height()).then_some(galley)
+        };
+        let galley = [11.0, 9.5, 8.0, 7.0].into_iter().find_map(whole);
+        let galley = galley.unwrap_or_else(|| laid(&card.title, 7.0, TextWrapping::truncate_at_width(body.width())));
         let at = pos2(body.left(), body.center().y - galley.size().y / 2.0);
-        self.painter.with_clip_rect(rect.intersect(self.painter.clip_rect())).galley(at, galley, self.colors.text);
+        self.painter.with_clip_rect(rect.intersect(self.painter.clip_rect())).galley(at, galley, self.colors.title);
     }
 
     fn row(&self, card: &Card, row: &Row, rect: Rect) {

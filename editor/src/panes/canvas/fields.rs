@@ -10,6 +10,7 @@ use super::notes::{self, NoteId};
 use super::sheet::{Card, Field, HEADER, Sheet, Side, number};
 use super::{Canvas, Desk};
 use crate::action::Action;
+use crate::written::{self, Kind, numbers};
 
 /// What is being changed.
 #[derive(Debug)]
@@ -21,6 +22,7 @@ pub(super) enum Editing {
         /// As it was: what is not changed sets nothing.
         before: String,
         count: usize,
+        kind: Taken,
         is_new: bool,
     },
     Color {
@@ -40,6 +42,19 @@ pub(super) enum Editing {
         text: String,
         is_new: bool,
     },
+}
+
+/// What numbers are taken.
+#[derive(Debug, Default)]
+pub(super) struct Taken {
+    is_whole: bool,
+    unit: String,
+}
+
+impl Taken {
+    fn kind(&self) -> Kind<'_> {
+        Kind { is_whole: self.is_whole, unit: &self.unit }
+    }
 }
 
 impl Field {
@@ -62,15 +77,17 @@ impl Canvas {
         let (card, row) = (&sheet.cards[card], &sheet.cards[card].rows[row]);
         let socket = SocketRef::new(&card.id, &row.name);
         match &row.field {
-            Field::Number { value, .. } => {
+            Field::Number { value, is_whole, unit, .. } => {
                 let text = value.to_string();
-                self.editing = Some(Editing::Numbers { socket, before: text.clone(), text, count: 1, is_new: true });
+                let (before, kind) = (text.clone(), Taken { is_whole: *is_whole, unit: unit.clone() });
+                self.editing = Some(Editing::Numbers { socket, before, text, count: 1, kind, is_new: true });
             }
             Field::Vector(parts) => {
                 // In full: what is not changed stays as it is.
                 let text = parts.iter().map(f32::to_string).collect::<Vec<_>>().join(", ");
                 let (before, count) = (text.clone(), parts.len());
-                self.editing = Some(Editing::Numbers { socket, text, before, count, is_new: true });
+                let kind = Taken::default();
+                self.editing = Some(Editing::Numbers { socket, text, before, count, kind, is_new: true });
             }
             Field::Color(color) => {
                 // The picker goes up to 1; what is brighter keeps its brightness.
@@ -97,18 +114,26 @@ impl Canvas {
     pub(super) fn fields(&mut self, ui: &mut egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet) {
         let Some(mut editing) = self.editing.take() else { return };
         let is_open = match &mut editing {
-            Editing::Numbers { socket, text, before, count, is_new } => {
+            Editing::Numbers { socket, text, before, count, kind, is_new } => {
                 let Some(rect) = place(sheet, socket) else { return };
                 let rect = desk.lens.rect_to_screen(rect).expand(2.0);
                 let (is_open, is_done) = write(ui, rect, text, std::mem::take(is_new), desk, "Value");
-                if is_done
-                    && text != before
-                    && let Some(value) = parsed(text, *count)
-                {
-                    let edit = Edit::SetValue { socket: socket.clone(), value: Some(value) };
-                    desk.make(format!("Set {}", socket.socket), edit);
+                match numbers(text, *count, kind.kind()) {
+                    _ if !is_done || text == before => is_open,
+                    Ok(numbers) => {
+                        if let Some(value) = value_of(&numbers) {
+                            let edit = Edit::SetValue { socket: socket.clone(), value: Some(value) };
+                            desk.make(format!("Set {}", socket.socket), edit);
+                        }
+                        is_open
+                    }
+                    Err(why) => {
+                        written::tell(ui.ctx(), rect, format!("{}; it stays {before}.", written::sentence(&why)));
+                        // After Enter it can be mended; who went elsewhere has left it.
+                        *is_new = ui.input(|input| input.key_pressed(Key::Enter));
+                        *is_new
+                    }
                 }
-                is_open
             }
             Editing::Name { node, text, is_new } => {
                 let Some(card) = sheet.card(node) else { return };
@@ -212,20 +237,13 @@ fn write(ui: &mut egui::Ui, rect: Rect, text: &mut String, is_new: bool, desk: &
     (!response.lost_focus() && !is_given_up, is_done)
 }
 
-/// Numbers as they were written: as many as wanted, or one for all.
-fn parsed(text: &str, count: usize) -> Option<Value> {
-    let parts: Option<Vec<f32>> = text
-        .split([',', ';', ' '])
-        .filter(|part| !part.is_empty())
-        .map(|part| part.parse().ok().filter(|x: &f32| x.is_finite()))
-        .collect();
-    let parts = parts?;
-    let parts = if parts.len() == 1 { vec![parts[0]; count] } else { parts };
-    match *parts.as_slice() {
-        [x] if count == 1 => Some(Value::Number(x)),
-        [x, y] if count == 2 => Some(Value::Vec2([x, y])),
-        [x, y, z] if count == 3 => Some(Value::Vec3([x, y, z])),
-        [x, y, z, w] if count == 4 => Some(Value::Vec4([x, y, z, w])),
+fn value_of(numbers: &[f64]) -> Option<Value> {
+    let numbers: Vec<f32> = numbers.iter().map(|x| *x as f32).collect();
+    match *numbers.as_slice() {
+        [x] => Some(Value::Number(x)),
+        [x, y] => Some(Value::Vec2([x, y])),
+        [x, y, z] => Some(Value::Vec3([x, y, z])),
+        [x, y, z, w] => Some(Value::Vec4([x, y, z, w])),
         _ => None,
     }
 }
@@ -250,11 +268,11 @@ fn pick(
             let mut rgb = hsva.to_rgb().map(|x| x * scale);
             ui.horizontal(|ui| {
                 for (name, part) in ["Red", "Green", "Blue"].into_iter().zip(&mut rgb) {
-                    let drag = egui::DragValue::new(part).speed(0.003).range(0.0..=scale).max_decimals(4);
-                    let response = ui.add(drag).on_hover_text(format!("{name}, linear"));
-                    if response.changed() {
-                        is_changed = true;
-                    }
+                    let place = |ui: &mut egui::Ui, drag: egui::DragValue<'_>| {
+                        let drag = drag.speed(0.003).range(0.0..=scale).max_decimals(4);
+                        ui.add(drag).on_hover_text(format!("{name}, linear"))
+                    };
+                    is_changed |= written::drag(ui, part, Kind::default(), place).response.changed();
                 }
             });
             if is_changed {

@@ -143,7 +143,7 @@ impl Canvas {
             self.click(desk, sheet, at, modifiers);
         }
         if response.double_clicked_by(PointerButton::Primary) {
-            self.double_click(desk, sheet, at);
+            self.double_click(ui, desk, sheet, at);
         }
         self.shift(sheet);
     }
@@ -314,7 +314,7 @@ impl Canvas {
         }
     }
 
-    fn double_click(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
+    fn double_click(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
         match hit::hit(sheet, desk.lens, at) {
             Hit::Empty => {
                 let purpose = Purpose { at: desk.lens.to_canvas(at), ..Purpose::default() };
@@ -322,7 +322,7 @@ impl Canvas {
             }
             Hit::Wire(wire) => {
                 let link = sheet.wires[wire].link.clone();
-                self.bend(desk, sheet, &link, desk.lens.to_canvas(at));
+                self.bend(ui, desk, sheet, &link, [desk.lens.to_canvas(at), at]);
             }
             Hit::Note(note, _) => self.write_note(&sheet.notes[note]),
             Hit::Card(card) => {
@@ -340,10 +340,19 @@ impl Canvas {
     }
 
     /// Puts a reroute into a wire, where the pointer is: on the grid it might lie on a card.
-    pub(super) fn bend(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, link: &Link, at: Pos2) {
+    pub(super) fn bend(
+        &mut self,
+        ui: &egui::Ui,
+        desk: &mut Desk<'_>,
+        sheet: &Sheet,
+        link: &Link,
+        [at, screen]: [Pos2; 2],
+    ) {
         let mut arrival = edits::add(desk.session, REROUTE, (at - REROUTE_SIZE / 2.0).into());
         if edits::put_into(desk.session, &mut arrival, link) {
             desk.arrive(sheet, "Add reroute", arrival);
+        } else {
+            self.say(ui, screen, "A surface or a picture goes through no reroute.".to_owned());
         }
     }
 
@@ -408,7 +417,7 @@ fn moving(chosen: Chosen, sheet: &Sheet, from: Pos2) -> Gesture {
 }
 
 /// Puts an id into a set, or takes it out.
-fn switch(set: &mut BTreeSet<NodeId>, id: &str) {
+pub(super) fn switch(set: &mut BTreeSet<NodeId>, id: &str) {
     if !set.remove(id) {
         set.insert(id.to_owned());
     }

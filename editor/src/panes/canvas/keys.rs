@@ -1,5 +1,7 @@
 //! The keys of the canvas, while it has the focus or the pointer rests over it.
 
+use std::collections::BTreeSet;
+
 use eframe::egui::{self, Event, EventFilter, Key, Modifiers, Pos2, Response, vec2};
 use halfvector_graph::document::{NodeId, SocketRef, group_of};
 use halfvector_graph::library::Library;
@@ -11,8 +13,10 @@ use super::fit::{Loose, sentence};
 use super::picked::Chosen;
 use super::sheet::{Sheet, Side};
 use super::view::GRID;
-use super::{Canvas, Desk};
-use crate::action::Action;
+use super::{Canvas, Desk, seen_whole};
+
+/// How something is selected without the pointer.
+pub(super) const TAB: &str = "Tab goes from one to the next.";
 
 /// What the window's menu can do with the selected nodes; each is a key of the canvas, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,12 +28,14 @@ pub(crate) enum Verb {
     Delete,
     DeleteAndHeal,
     Connect,
+    Frame,
+    Comment,
     SelectAll,
 }
 
 impl Verb {
     /// What is done with what is chosen, with names and keys.
-    pub(crate) const ALL: [(Verb, &str, &str); 7] = [
+    pub(crate) const ALL: [(Verb, &str, &str); 9] = [
         (Verb::Cut, "Cut", "Ctrl+X"),
         (Verb::Copy, "Copy", "Ctrl+C"),
         (Verb::Paste, "Paste", "Ctrl+V"),
@@ -37,6 +43,8 @@ impl Verb {
         (Verb::Delete, "Delete", "Del"),
         (Verb::DeleteAndHeal, "Delete and heal", "Ctrl+Del"),
         (Verb::Connect, "Connect…", "C"),
+        (Verb::Frame, "Add frame", "Ctrl+J"),
+        (Verb::Comment, "Add comment", ""),
     ];
 }
 
@@ -52,6 +60,11 @@ impl Canvas {
                 Verb::Delete => self.remove(desk, sheet, false),
                 Verb::DeleteAndHeal => self.remove(desk, sheet, true),
                 Verb::Connect => self.connect(ui, desk, sheet, None),
+                Verb::Frame => self.add_frame(desk, sheet, desk.lens.pane_center()),
+                Verb::Comment => {
+                    let at = sheet.free_place(desk.lens.pane_center());
+                    self.add_comment(desk, sheet, at);
+                }
                 Verb::SelectAll => self.choose_all(desk, sheet),
             }
             // What is pasted comes as an event, which the focus takes.
@@ -68,7 +81,7 @@ impl Canvas {
         if response.has_focus() {
             // After the last node the focus goes on by itself.
             let last = reading_order(sheet).last().copied();
-            let tab = !last.is_some_and(|last| sheet.cards[last].is_selected) || response.contains_pointer();
+            let tab = !last.is_some_and(|last| self.is_at(sheet, last)) || response.contains_pointer();
             let filter = EventFilter { tab, horizontal_arrows: true, vertical_arrows: true, escape: true };
             ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
         }
@@ -137,7 +150,7 @@ impl Canvas {
             desk.lens.view = desk.lens.zoomed(1.0 / desk.lens.view.zoom, at);
         }
         if pressed(none, Key::F2) {
-            self.rename_chosen(desk, sheet);
+            self.rename_chosen(ui, desk, sheet, at);
         }
         if pressed(none, Key::C) {
             self.connect(ui, desk, sheet, None);
@@ -156,10 +169,12 @@ impl Canvas {
             }
         }
         if pressed(none, Key::Enter) {
-            self.go_on_from_selected(desk, sheet);
+            self.go_on_from_selected(ui, desk, sheet, at);
         } else if pressed(none, Key::Space) || (pointer.is_some() && pressed(none, Key::Tab)) {
-            let purpose = Purpose { at: desk.lens.to_canvas(at), ..Purpose::default() };
-            self.open_palette(desk, at, purpose);
+            // Without the pointer all come to the same place.
+            let place = pointer.map(|at| desk.lens.to_canvas(at));
+            let place = place.unwrap_or_else(|| sheet.free_place(desk.lens.pane_center()));
+            self.open_palette(desk, at, Purpose { at: place, ..Purpose::default() });
         }
         let (back, on) = (pressed(shift, Key::Tab), pressed(none, Key::Tab));
         if on || back {
@@ -200,7 +215,9 @@ impl Canvas {
     pub(super) fn ungroup(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
         let session = desk.session;
         let is_group = |id: &&NodeId| session.graph().nodes.get(*id).is_some_and(|node| group_of(&node.node).is_some());
-        let Some(id) = session.selection().iter().find(is_group) else { return };
+        let Some(id) = session.selection().iter().find(is_group) else {
+            return self.say(ui, at, "No group is selected that could be taken apart.".to_owned());
+        };
         match ungroup(session.document(), Library::standard(), session.group(), id) {
             Ok(edit) => desk.arrive(sheet, "Ungroup", Arrival::of(session.group(), edit)),
             Err(why) => self.say(ui, at, sentence(&why.0)),
@@ -208,7 +225,7 @@ impl Canvas {
     }
 
     /// Begins to rename what is chosen, when it is one node, frame or comment.
-    fn rename_chosen(&mut self, desk: &Desk<'_>, sheet: &Sheet) {
+    fn rename_chosen(&mut self, ui: &egui::Ui, desk: &Desk<'_>, sheet: &Sheet, at: Pos2) {
         let chosen = self.chosen(desk);
         match (chosen.nodes.first(), chosen.notes.first()) {
             (Some(node), None) if chosen.nodes.len() == 1 => self.rename(sheet, node),
@@ -217,50 +234,74 @@ impl Canvas {
                     self.write_note(note);
                 }
             }
-            _ => {}
+            _ => self.say(ui, at, format!("Select one node, frame or comment to name it. {TAB}")),
         }
     }
 
     /// Opens the palette for what the selected node gives.
-    fn go_on_from_selected(&mut self, desk: &mut Desk<'_>, sheet: &Sheet) {
-        let Some(card) = sheet.cards.iter().find(|card| card.is_selected) else { return };
+    fn go_on_from_selected(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, at: Pos2) {
+        let Some(card) = sheet.cards.iter().find(|card| card.is_selected) else {
+            return self.say(ui, at, format!("Select a node to go on from. {TAB}"));
+        };
         let rect = card.rect();
         let at = desk.lens.to_screen(rect.right_top()) + vec2(24.0, 0.0);
         let output = card.rows.iter().find(|row| row.side == Side::Output && row.has_socket());
         let loose = output.map(|row| Loose::Output(SocketRef::new(&card.id, &row.name), row.ty));
-        let purpose = Purpose { at: rect.right_top() + vec2(GRID * 3.0, 0.0), loose, into: None };
+        let place = sheet.free_place(rect.right_top() + vec2(GRID * 3.0, 0.0));
+        let purpose = Purpose { at: place, loose, into: None };
         self.open_palette(desk, at, purpose);
     }
 
-    /// Selects the next node, or lets the focus go after the last one.
+    /// Chooses the next node, frame or comment, or lets the focus go after the last one.
     fn walk(&mut self, response: &Response, desk: &mut Desk<'_>, sheet: &Sheet, on: bool) {
         let order = reading_order(sheet);
-        let now = order.iter().position(|&i| sheet.cards[i].is_selected);
+        let now = order.iter().position(|stop| self.is_at(sheet, *stop));
         let next = match (now, on) {
             (None, true) => Some(0),
             (None, false) => order.len().checked_sub(1),
             (Some(now), true) => Some(now + 1),
             (Some(now), false) => now.checked_sub(1),
         };
-        match next.and_then(|next| order.get(next)) {
-            Some(&card) => {
+        let Some(stop) = next.and_then(|next| order.get(next)) else { return response.surrender_focus() };
+        let rect = match *stop {
+            Stop::Card(card) => {
                 let card = &sheet.cards[card];
-                desk.actions.push(Action::Select(vec![card.id.clone()]));
-                if !desk.lens.seen().contains_rect(card.rect()) {
-                    self.wanted = vec![card.id.clone()];
-                }
+                self.choose_only(desk, Chosen { nodes: BTreeSet::from([card.id.clone()]), ..Chosen::default() });
+                card.rect()
             }
-            None => response.surrender_focus(),
+            Stop::Note(note) => {
+                let note = &sheet.notes[note];
+                self.choose_note(desk, note.id.clone());
+                note.rect
+            }
+        };
+        if !desk.lens.seen().contains_rect(rect) {
+            desk.lens.view = seen_whole(rect, desk.lens);
+        }
+    }
+
+    fn is_at(&self, sheet: &Sheet, stop: Stop) -> bool {
+        match stop {
+            Stop::Card(card) => sheet.cards[card].is_selected,
+            Stop::Note(note) => self.picked.contains(&sheet.notes[note].id),
         }
     }
 }
 
-/// The cards column by column.
-fn reading_order(sheet: &Sheet) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..sheet.cards.len()).collect();
-    let key = |i: usize| (sheet.cards[i].place.x, sheet.cards[i].place.y);
-    order.sort_by(|&a, &b| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal));
-    order
+/// Where Tab stops.
+#[derive(Clone, Copy)]
+enum Stop {
+    Card(usize),
+    Note(usize),
+}
+
+/// All from left to right, of those in one column from above; a frame before what lies in it.
+fn reading_order(sheet: &Sheet) -> Vec<Stop> {
+    let cards = (0..sheet.cards.len()).map(|card| (sheet.cards[card].place, Stop::Card(card)));
+    let notes = (0..sheet.notes.len()).map(|note| (sheet.notes[note].rect.min, Stop::Note(note)));
+    let mut order: Vec<(Pos2, Stop)> = notes.chain(cards).collect();
+    order.sort_by(|(a, _), (b, _)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    order.into_iter().map(|(_, stop)| stop).collect()
 }
 
 fn count(nodes: usize) -> String {

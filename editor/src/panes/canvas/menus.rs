@@ -12,7 +12,7 @@ use super::notes::NoteId;
 use super::picked::Chosen;
 use super::sheet::Sheet;
 use super::{Canvas, Desk};
-use crate::action::Action;
+use crate::action::{Action, Choose};
 
 /// What a menu is about.
 #[derive(Clone, Debug, Default)]
@@ -76,6 +76,9 @@ impl Canvas {
         }
         if item(menu, "New function…", "") {
             self.add_function(desk, sheet, place);
+        }
+        if item(menu, "Group from a file…", "") {
+            desk.actions.push(Action::Choose(Choose::Group));
         }
         if item(menu, "Paste", "Ctrl+V") {
             menu.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
@@ -147,6 +150,9 @@ impl Canvas {
             if item(menu, "Open the group", "Double-click") {
                 desk.enter(inside);
             }
+            if item(menu, "Save the group…", "") {
+                desk.actions.push(Action::Choose(Choose::SaveGroup(inside.to_owned())));
+            }
             if item(menu, "Ungroup", "Ctrl+Shift+G") {
                 self.ungroup(ui, desk, sheet, at);
             }
@@ -187,7 +193,7 @@ impl Canvas {
             self.open_palette(desk, at, Purpose { at: place, loose: None, into: Some(link.clone()) });
         }
         if item(menu, "Insert reroute", "Double-click") {
-            self.bend(desk, sheet, &link, place);
+            self.bend(menu, desk, sheet, &link, [place, at]);
         }
         if item(menu, "Delete wire", "") {
             desk.edit(sheet, "Disconnect", vec![Edit::RemoveLink { link }]);

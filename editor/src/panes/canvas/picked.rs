@@ -2,12 +2,14 @@
 //! them is done with both.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use eframe::egui::{self, Pos2, Rect, Vec2, vec2};
-use halfvector_graph::document::NodeId;
+use halfvector_graph::document::{Document, NodeId};
 use halfvector_graph::edit::Edit;
+use halfvector_graph::file::{from_json, to_json};
 use halfvector_graph::library::Library;
-use halfvector_graph::operation::{Pick, Refusal, copy, paste, remove_and_heal};
+use halfvector_graph::operation::{Pasted, Pick, Refusal, copy, paste, remove_and_heal};
 
 use super::edits::Arrival;
 use super::fit::sentence;
@@ -16,7 +18,10 @@ use super::sheet::Sheet;
 use super::view::{GRID, to_grid};
 use super::{Canvas, Desk, moved};
 use crate::action::Action;
+use crate::session::{names_pictures, with_images_moved};
 
+/// The field of a copied document's file with the folder that its relative paths start from.
+const COPIED_FROM: &str = "copied_from";
 /// How far duplicates lie from their originals.
 const BESIDE: Vec2 = vec2(GRID * 2.0, GRID * 2.0);
 
@@ -113,7 +118,7 @@ impl Canvas {
     pub(super) fn copy(&self, ui: &egui::Ui, desk: &Desk<'_>, sheet: &Sheet) {
         let chosen = self.chosen(desk).with_contents(sheet);
         if !chosen.is_empty() {
-            ui.ctx().copy_text(copied(desk, &chosen));
+            ui.ctx().copy_text(copied_text(desk, &chosen));
         }
     }
 
@@ -126,8 +131,21 @@ impl Canvas {
 
     /// Adds the nodes and notes of a text, the upper left one at a place of the screen.
     pub(super) fn paste(&mut self, ui: &egui::Ui, desk: &mut Desk<'_>, sheet: &Sheet, text: &str, at: Pos2) {
-        match pasted(desk, text, to_grid(desk.lens.to_canvas(at))) {
-            Ok((edit, chosen)) => self.take_in(desk, sheet, "Paste", edit, chosen),
+        let Ok(copied) = from_json(text) else {
+            return self.say(ui, at, "The clipboard holds no nodes.".to_owned());
+        };
+        let copied = here(desk, copied);
+        match pasted(desk, &copied, to_grid(desk.lens.to_canvas(at))) {
+            Ok(pasted) => {
+                // What comes out of view is shown.
+                let places = copied.graph.layout.values().map(|place| Pos2::from(*place));
+                let all = places.map(|place| Rect::from_min_size(place, Vec2::ZERO)).reduce(Rect::union);
+                let middle = all.map(|all| desk.lens.to_canvas(at) + all.size() / 2.0);
+                if middle.is_some_and(|middle| !desk.lens.seen().contains(middle)) {
+                    self.wanted.clone_from(&pasted.pick.nodes);
+                }
+                self.take_in(desk, sheet, ["Paste", "Pasted"], pasted);
+            }
             Err(why) => self.say(ui, at, sentence(&why.0)),
         }
     }
@@ -135,15 +153,24 @@ impl Canvas {
     pub(super) fn duplicate(&mut self, desk: &mut Desk<'_>, sheet: &Sheet) {
         let chosen = self.chosen(desk).with_contents(sheet);
         let Some(rect) = chosen.bounds(sheet) else { return };
-        if let Ok((edit, chosen)) = pasted(desk, &copied(desk, &chosen), rect.min + BESIDE) {
-            self.take_in(desk, sheet, "Duplicate", edit, chosen);
+        match pasted(desk, &copied(desk, &chosen), rect.min + BESIDE) {
+            Ok(pasted) => self.take_in(desk, sheet, ["Duplicate", "Duplicated"], pasted),
+            Err(why) => desk.actions.push(Action::Say(sentence(&why.0))),
         }
     }
 
-    fn take_in(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, verb: &str, edit: Edit, chosen: Chosen) {
-        let name = format!("{verb} {}", chosen.words());
+    fn take_in(&mut self, desk: &mut Desk<'_>, sheet: &Sheet, [verb, done]: [&str; 2], pasted: Pasted) {
+        let Pasted { edit, pick, notes } = pasted;
+        let frames = pick.frames.into_iter().map(NoteId::Frame);
+        let notes_of_graph = frames.chain(pick.comments.into_iter().map(NoteId::Comment)).collect();
+        let chosen = Chosen { nodes: pick.nodes.into_iter().collect(), notes: notes_of_graph };
+        let words = chosen.words();
         self.picked = chosen.notes;
-        desk.arrive(sheet, name, Arrival { edits: vec![edit], ids: chosen.nodes.into_iter().collect() });
+        let ids = chosen.nodes.into_iter().collect();
+        desk.arrive(sheet, format!("{verb} {words}"), Arrival { edits: vec![edit], ids });
+        if !notes.is_empty() {
+            desk.actions.push(Action::Say(format!("{done} {words}: {}.", notes.join("; "))));
+        }
     }
 
     /// Removes what is chosen; of a frame the frame alone.
@@ -182,16 +209,34 @@ fn remove(desk: &mut Desk<'_>, sheet: &Sheet, chosen: &Chosen, heals: bool) {
     }
 }
 
-/// What is chosen as text.
-fn copied(desk: &Desk<'_>, chosen: &Chosen) -> String {
+/// What is chosen as a document of its own.
+fn copied(desk: &Desk<'_>, chosen: &Chosen) -> Document {
     copy(desk.session.document(), desk.session.group(), &chosen.pick())
 }
 
-/// The edit that brings what a text holds, the upper left corner at a place, and what is there then.
-fn pasted(desk: &Desk<'_>, text: &str, at: Pos2) -> Result<(Edit, Chosen), Refusal> {
-    let session = desk.session;
-    let (edit, pick) = paste(session.document(), Library::standard(), session.group(), text, at.into())?;
-    let frames = pick.frames.into_iter().map(NoteId::Frame);
-    let notes = frames.chain(pick.comments.into_iter().map(NoteId::Comment)).collect();
-    Ok((edit, Chosen { nodes: pick.nodes.into_iter().collect(), notes }))
+/// What is chosen as text. With pictures it says where their relative paths start, so that they mean the same files in another window.
+fn copied_text(desk: &Desk<'_>, chosen: &Chosen) -> String {
+    let mut copied = copied(desk, chosen);
+    if names_pictures(&copied) {
+        copied.unknown.insert(COPIED_FROM.to_owned(), folder(desk).into());
+    }
+    to_json(&copied)
+}
+
+/// What was copied, with the paths of its pictures as this document writes them.
+fn here(desk: &Desk<'_>, copied: Document) -> Document {
+    let from = copied.unknown.get(COPIED_FROM).and_then(|from| from.as_str()).filter(|from| *from != folder(desk));
+    let moved = from.and_then(|from| with_images_moved(&copied, Path::new(from), &desk.session.directory()));
+    moved.unwrap_or(copied)
+}
+
+/// The folder that relative paths of this document start from.
+fn folder(desk: &Desk<'_>) -> String {
+    let folder = desk.session.directory();
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { &folder };
+    std::path::absolute(folder).unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn pasted(desk: &Desk<'_>, copied: &Document, at: Pos2) -> Result<Pasted, Refusal> {
+    paste(desk.session.document(), Library::standard(), desk.session.group(), copied, at.into())
 }

@@ -31,6 +31,8 @@ pub(super) const TITLE_SIZE: f32 = 13.0;
 pub(super) const ROW_SIZE: f32 = 12.0;
 /// Side of the picture of what a node gives.
 const PICTURE: f32 = 96.0;
+/// Room that a card needs that is not laid out yet.
+const NEW: Vec2 = vec2(220.0, 180.0);
 /// Size of the dot that bends a wire.
 pub(super) const REROUTE_SIZE: Vec2 = vec2(28.0, 16.0);
 
@@ -223,6 +225,22 @@ impl Sheet {
         self.cards.iter().map(Card::rect).chain(notes).reduce(Rect::union)
     }
 
+    /// The nearest place below a point, or there, where a card does not lie on others.
+    pub(super) fn free_place(&self, at: Pos2) -> Pos2 {
+        let mut place = Rect::from_min_size(at, NEW);
+        while let Some(low) = self
+            .cards
+            .iter()
+            .map(Card::rect)
+            .filter(|rect| rect.expand(8.0).intersects(place))
+            .map(|rect| rect.bottom())
+            .reduce(f32::max)
+        {
+            place = Rect::from_min_size(pos2(at.x, low + 24.0), NEW);
+        }
+        place.min
+    }
+
     /// The place of a socket.
     pub(super) fn socket(&self, (card, row): (usize, usize)) -> Pos2 {
         self.cards[card].socket(&self.cards[card].rows[row])
@@ -256,7 +274,7 @@ impl Sheet {
             return;
         }
         let corner = if lowest.is_finite() { pos2(leftmost, lowest + 60.0) } else { Pos2::ZERO };
-        for (i, place) in arrange::places(&self.cards, &self.wires, &homeless) {
+        for (i, place) in arrange::places(self, &homeless) {
             self.cards[i].place = corner + place.to_vec2();
         }
     }

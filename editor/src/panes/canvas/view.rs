@@ -53,6 +53,11 @@ impl Lens {
         Rect::from_min_max(self.to_screen(rect.min), self.to_screen(rect.max))
     }
 
+    /// The point of the canvas in the middle of the pane.
+    pub(super) fn pane_center(self) -> Pos2 {
+        self.to_canvas(self.pane.center())
+    }
+
     /// The part of the canvas that is seen.
     pub(super) fn seen(self) -> Rect {
         Rect::from_min_max(self.to_canvas(self.pane.min), self.to_canvas(self.pane.max))

@@ -10,6 +10,7 @@ use halfvector_graph::operation::can_connect;
 use halfvector_graph::value::Value;
 
 use crate::action::Action;
+use crate::panes::inspector::image::setting;
 use crate::panes::inspector::row::in_words;
 use crate::session::Session;
 
@@ -23,24 +24,27 @@ pub(crate) fn channel(ui: &mut egui::Ui, session: &Session, node: &NodeId, def: 
     if def.outputs.len() < 2 || links.iter().any(|link| link.from.socket != now) {
         return;
     }
-    let label = ui.label("channel").on_hover_text("What of the picture is used: the output that is wired");
-    let combo = ComboBox::from_id_salt("channel").width(84.0).selected_text(in_words(now)).show_ui(ui, |ui| {
-        for output in &def.outputs {
-            let from = SocketRef::new(node, &output.name);
-            let can = |link: &&Link| {
-                can_connect(session.document(), Library::standard(), session.group(), &from, &link.to).is_ok()
-            };
-            let is_now = output.name == now;
-            let choice = egui::Button::selectable(is_now, in_words(&output.name));
-            let response = ui.add_enabled(is_now || links.iter().all(can), choice).on_hover_text(&output.help);
-            if response.on_disabled_hover_text("It does not fit what the picture feeds").clicked() && !is_now {
-                // The link into an input makes way for another one.
-                let other = links.iter().map(|link| Edit::AddLink { link: Link::new(from.clone(), link.to.clone()) });
-                actions.push(Action::edit("Choose the channel", Edit::Many(other.collect())));
+    setting(ui, "channel", "What of the picture is used: the output that is wired", |ui, label| {
+        let combo = ComboBox::from_id_salt("channel").width(ui.available_width() - 8.0).selected_text(in_words(now));
+        let combo = combo.show_ui(ui, |ui| {
+            for output in &def.outputs {
+                let from = SocketRef::new(node, &output.name);
+                let can = |link: &&Link| {
+                    can_connect(session.document(), Library::standard(), session.group(), &from, &link.to).is_ok()
+                };
+                let is_now = output.name == now;
+                let choice = egui::Button::selectable(is_now, in_words(&output.name));
+                let response = ui.add_enabled(is_now || links.iter().all(can), choice).on_hover_text(&output.help);
+                if response.on_disabled_hover_text("It does not fit what the picture feeds").clicked() && !is_now {
+                    // The link into an input makes way for another one.
+                    let other =
+                        links.iter().map(|link| Edit::AddLink { link: Link::new(from.clone(), link.to.clone()) });
+                    actions.push(Action::edit("Choose the channel", Edit::Many(other.collect())));
+                }
             }
-        }
+        });
+        combo.response.labelled_by(label);
     });
-    combo.response.labelled_by(label.id);
 }
 
 /// Draws the choice of the sign of a normal map's green channel, when the picture feeds one.
@@ -54,14 +58,16 @@ pub(crate) fn sign(ui: &mut egui::Ui, session: &Session, node: &NodeId, actions:
     }
     let mut flipped = session.value(&SocketRef::new(first, FLIP)) == Some(&Value::Bool(true));
     let before = flipped;
-    let label = ui.label("normals").on_hover_text("Which way the green channel of the normal map runs");
     let words = |flipped: bool| if flipped { "-Y (DirectX)" } else { "+Y (OpenGL)" };
-    let combo = ComboBox::from_id_salt("normals").width(84.0).selected_text(words(flipped)).show_ui(ui, |ui| {
-        for one in [false, true] {
-            ui.selectable_value(&mut flipped, one, words(one));
-        }
+    setting(ui, "normals", "Which way the green channel of the normal map runs", |ui, label| {
+        let combo = ComboBox::from_id_salt("normals").width(ui.available_width() - 8.0).selected_text(words(flipped));
+        let combo = combo.show_ui(ui, |ui| {
+            for one in [false, true] {
+                ui.selectable_value(&mut flipped, one, words(one));
+            }
+        });
+        combo.response.labelled_by(label);
     });
-    combo.response.labelled_by(label.id);
     if flipped != before {
         let set = |id: &&NodeId| Edit::SetValue { socket: SocketRef::new(id, FLIP), value: Some(Value::Bool(flipped)) };
         let edit = Edit::Many(maps.iter().map(set).collect());

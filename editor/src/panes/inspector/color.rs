@@ -5,6 +5,8 @@ use eframe::egui::color_picker::{Alpha, color_picker_hsva_2d, show_color_at};
 use eframe::egui::ecolor::Hsva;
 use eframe::egui::{self, Color32, DragValue, Popup, PopupCloseBehavior, Response, Rgba, Sense, TextEdit};
 
+use crate::written::{self, Kind};
+
 /// Width of the code's field.
 const CODE_WIDTH: f32 = 72.0;
 
@@ -61,9 +63,10 @@ fn picker(ui: &mut egui::Ui, values: &mut [f32]) -> bool {
     ui.separator();
     ui.weak("Linear Rec. 709");
     ui.horizontal(|ui| {
-        for (value, name) in values.iter_mut().zip(["R ", "G ", "B ", "A "]) {
-            let drag = DragValue::new(value).speed(0.003).max_decimals(4).prefix(name);
-            changed |= ui.add(drag).changed();
+        for (value, name) in values.iter_mut().zip(["R", "G", "B", "A"]) {
+            ui.label(name);
+            let place = |ui: &mut egui::Ui, drag: DragValue<'_>| ui.add(drag.speed(0.003).max_decimals(4));
+            changed |= written::drag(ui, value, Kind::default(), place).response.changed();
         }
     });
     changed
@@ -92,6 +95,12 @@ fn code_field(ui: &mut egui::Ui, values: &mut [f32], label: egui::Id) -> Respons
                 *value = channel;
             }
             response.mark_changed();
+        }
+        None if response.lost_focus() && text != code && !ui.input(|input| input.key_pressed(egui::Key::Escape)) => {
+            response.flags.remove(egui::response::Flags::CHANGED);
+            let why =
+                format!("“{text}” is no colour; write six digits of hexadecimal such as #c08040. It stays {code}.");
+            written::tell(ui.ctx(), response.rect, why);
         }
         // A text that is no code yet changes nothing.
         _ => response.flags.remove(egui::response::Flags::CHANGED),

@@ -6,10 +6,10 @@ use halfvector_graph::edit::Edit;
 use halfvector_graph::node_def::Default as InputDefault;
 use halfvector_graph::value::{SocketType, Type};
 
-use crate::action::Action;
+use crate::action::{Action, Choose};
 use crate::panes::inspector::input::value_from;
 use crate::panes::inspector::number::{self, Style};
-use crate::panes::inspector::row::{end_when_done, named_text, row};
+use crate::panes::inspector::row::{end_when_done, gives_up, named_text, row};
 use crate::panes::inspector::{color, kind};
 use crate::session::Session;
 use crate::sockets::{Side, Socket, added};
@@ -46,6 +46,13 @@ pub(crate) fn show(ui: &mut egui::Ui, session: &Session, id: &str, group: &Group
         set(Interface { help, ..interface.clone() }, actions);
     }
     end_when_done(&response, actions);
+    if ui
+        .button("Save to a file…")
+        .on_hover_text("As *.group.json, with all that it needs, for other materials")
+        .clicked()
+    {
+        actions.push(Action::Choose(Choose::SaveGroup(id.to_owned())));
+    }
     ui.separator();
     for (side, title) in [(Side::Inputs, "Inputs"), (Side::Outputs, "Outputs")] {
         let names = side.names(interface);
@@ -148,7 +155,7 @@ fn default(ui: &mut egui::Ui, interface: &Interface, socket: Socket<'_>, place: 
     let Some(mut parts) = value.components_as(ty) else { return };
     let style = Style { range: input.range, unit: &input.unit, is_whole: ty == Type::I32 };
     let hint = "What it reads when nothing is connected or set";
-    let response = row(
+    let answer = row(
         ui,
         RichText::new("default"),
         hint,
@@ -158,19 +165,20 @@ fn default(ui: &mut egui::Ui, interface: &Interface, socket: Socket<'_>, place: 
                 let mut on = *part != 0.0;
                 let response = ui.add(Checkbox::without_text(&mut on)).labelled_by(label);
                 *part = f32::from(u8::from(on));
-                response
+                response.into()
             }
             (_, [part]) => number::number(ui, part, style, label),
-            (_, parts) if input.unit == "color" => color::color(ui, parts, label),
+            (_, parts) if input.unit == "color" => color::color(ui, parts, label).into(),
             (_, parts) => number::vector(ui, parts, style, label),
         },
         None,
     );
-    if response.changed()
+    if !gives_up(&answer, actions)
+        && answer.response.changed()
         && let Some(edit) = value_from(ty, &parts).and_then(|value| socket.with_default(value))
     {
         let key = format!("default of {} {}", socket.group, socket.name);
         actions.push(Action::drag(format!("Default of {}", socket.name), edit, key));
     }
-    end_when_done(&response, actions);
+    end_when_done(&answer.response, actions);
 }

@@ -8,7 +8,7 @@ use halfvector_graph::edit::Edit;
 use halfvector_graph::value::{ColorSpace, Filter, ImageRef, Value, Wrap};
 
 use crate::action::{Action, Choose};
-use crate::dropped::{is_picture, take};
+use crate::dropped::{Kind, no_picture, take};
 use crate::panes::inspector::channel;
 use crate::panes::inspector::input::{self, Slot};
 use crate::panes::inspector::row::{in_words, row};
@@ -16,6 +16,7 @@ use crate::panes::inspector::thumbnail::{Thumbnail, Thumbnails};
 use crate::pictures;
 use crate::session::Session;
 use crate::theme;
+use crate::written;
 
 /// Side of the thumbnail.
 const SIDE: f32 = 64.0;
@@ -63,18 +64,20 @@ pub(crate) fn show(
                 ui.vertical(|ui| {
                     reading(ui, &socket, image, actions);
                     if let Some(def) = session.node(slot.node).and_then(|node| session.library().get(&node.node)) {
-                        ui.horizontal(|ui| channel::channel(ui, session, slot.node, def, actions));
+                        channel::channel(ui, session, slot.node, def, actions);
                     }
-                    ui.horizontal(|ui| channel::sign(ui, session, slot.node, actions));
+                    channel::sign(ui, session, slot.node, actions);
                 });
             });
         });
     }
     let place = egui::Rect::from_x_y_ranges(ui.max_rect().x_range(), top..=ui.cursor().top());
-    if ui.rect_contains_pointer(place)
-        && let Some(path) = take(ui.ctx(), is_picture).first()
-    {
-        actions.push(pictures::chosen(session, &socket, path));
+    if ui.rect_contains_pointer(place) {
+        if let Some(path) = take(ui.ctx(), |kind| kind == Kind::Picture).first() {
+            actions.push(pictures::chosen(session, &socket, path));
+        } else if let Some(path) = take(ui.ctx(), |kind| kind == Kind::Radiance).first() {
+            written::tell(ui.ctx(), place, no_picture(path));
+        }
     }
 }
 
@@ -122,38 +125,35 @@ fn picture(ui: &mut egui::Ui, path: PathBuf, thumbnails: &mut Thumbnails) {
 /// How the picture is read.
 fn reading(ui: &mut egui::Ui, socket: &SocketRef, image: &ImageRef, actions: &mut Vec<Action>) {
     let mut now = image.clone();
-    ui.horizontal(|ui| {
-        let spaces = [(ColorSpace::Srgb, "sRGB colours"), (ColorSpace::Linear, "plain numbers")];
-        choice(
-            ui,
-            "coded as",
-            "Colours are decoded from sRGB; data such as normals and roughness are not",
-            &mut now.color_space,
-            &spaces,
-        );
-    });
+    let spaces = [(ColorSpace::Srgb, "sRGB colours"), (ColorSpace::Linear, "plain numbers")];
+    let hint = "Colours are decoded from sRGB; data such as normals and roughness are not";
+    setting(ui, "coded as", hint, |ui, label| choice(ui, label, "coded as", &mut now.color_space, &spaces));
     let wraps = [(Wrap::Repeat, "repeat"), (Wrap::Clamp, "clamp"), (Wrap::Mirror, "mirror")];
-    ui.horizontal(|ui| {
-        choice(ui, "u", "What lies left and right of it", &mut now.wrap_u, &wraps);
-        choice(ui, "v", "What lies above and below it", &mut now.wrap_v, &wraps);
-    });
-    ui.horizontal(|ui| {
-        let filters = [(Filter::Linear, "smooth"), (Filter::Nearest, "nearest")];
-        choice(ui, "filter", "How it is read between its texels", &mut now.filter, &filters);
-    });
+    let hint = "What lies left and right of it";
+    setting(ui, "u", hint, |ui, label| choice(ui, label, "u", &mut now.wrap_u, &wraps));
+    let hint = "What lies above and below it";
+    setting(ui, "v", hint, |ui, label| choice(ui, label, "v", &mut now.wrap_v, &wraps));
+    let filters = [(Filter::Linear, "smooth"), (Filter::Nearest, "nearest")];
+    let hint = "How it is read between its texels";
+    setting(ui, "filter", hint, |ui, label| choice(ui, label, "filter", &mut now.filter, &filters));
     if now != *image {
         let edit = Edit::SetValue { socket: socket.clone(), value: Some(Value::Image(now)) };
         actions.push(Action::edit("Read the picture otherwise", edit));
     }
 }
 
-fn choice<T: PartialEq + Copy>(ui: &mut egui::Ui, name: &str, hint: &str, value: &mut T, all: &[(T, &str)]) {
-    let label = ui.label(name).on_hover_text(hint);
+/// A row of how a picture is used.
+pub(super) fn setting(ui: &mut egui::Ui, name: &str, hint: &str, add: impl FnOnce(&mut egui::Ui, egui::Id)) {
+    row(ui, RichText::new(name), hint, None, add, None);
+}
+
+fn choice<T: PartialEq + Copy>(ui: &mut egui::Ui, label: egui::Id, name: &str, value: &mut T, all: &[(T, &str)]) {
     let text = all.iter().find(|(one, _)| one == value).map_or("", |(_, text)| text);
-    let combo = ComboBox::from_id_salt(name).width(84.0).selected_text(text).show_ui(ui, |ui| {
+    let width = ui.available_width() - 8.0;
+    let combo = ComboBox::from_id_salt(name).width(width).selected_text(text).show_ui(ui, |ui| {
         for (one, text) in all {
             ui.selectable_value(value, *one, *text);
         }
     });
-    combo.response.labelled_by(label.id);
+    combo.response.labelled_by(label);
 }

@@ -12,7 +12,7 @@ use halfvector_graph::value::{SocketType, Type, Value};
 use crate::action::Action;
 use crate::colors::nodes_of_colors;
 use crate::panes::inspector::number::Style;
-use crate::panes::inspector::row::{end_when_done, in_words, row};
+use crate::panes::inspector::row::{end_when_done, gives_up, in_words, row};
 use crate::panes::inspector::thumbnail::Thumbnails;
 use crate::panes::inspector::{color, image, number, parameter};
 use crate::session::Session;
@@ -156,25 +156,26 @@ fn widget(
         return;
     };
     let is_color = slot.is_color && parts.len() >= 3;
-    let response = match (ty, parts.as_mut_slice()) {
+    let answer = match (ty, parts.as_mut_slice()) {
         (Type::Bool, [part]) => {
             let mut on = *part != 0.0;
             let response = ui.add(Checkbox::without_text(&mut on)).labelled_by(label);
             *part = f32::from(u8::from(on));
-            response
+            response.into()
         }
         (_, [part]) => number::number(ui, part, style, label),
-        (_, parts) if is_color => color::color(ui, parts, label),
+        (_, parts) if is_color => color::color(ui, parts, label).into(),
         (_, parts) => number::vector(ui, parts, style, label),
     };
-    if response.changed() {
+    let response = &answer.response;
+    if !gives_up(&answer, actions) && response.changed() {
         if let Some([low, high]) = slot.limits {
             parts.iter_mut().for_each(|part| *part = part.max(low).min(high));
         }
         let edit = Edit::SetValue { socket: socket.clone(), value: value_from(ty, &parts) };
         actions.push(Action::drag(format!("Set {}", in_words(&slot.input.name)), edit, socket.to_string()));
     }
-    end_when_done(&response, actions);
+    end_when_done(response, actions);
 }
 
 /// A value from components of a type.

@@ -10,7 +10,7 @@ use halfvector_graph::wiring::Wiring;
 
 use crate::action::Action;
 use crate::panes::inspector::number::{self, Style};
-use crate::panes::inspector::row::{end_when_done, named_text, row};
+use crate::panes::inspector::row::{end_when_done, gives_up, named_text, row};
 use crate::panes::inspector::{input, parameter};
 use crate::session::Session;
 
@@ -80,11 +80,14 @@ fn surface(ui: &mut egui::Ui, before: SurfaceSettings, actions: &mut Vec<Action>
         |ui, label| ui.add(Checkbox::without_text(&mut now.double_sided)).labelled_by(label),
         None,
     );
+    if done.as_ref().is_some_and(|answer| gives_up(answer, actions)) {
+        now.alpha_cutoff = before.alpha_cutoff;
+    }
     if now != before {
         actions.push(Action::drag("Change the surface", Edit::SetSurface { surface: now }, "surface settings"));
     }
     match done {
-        Some(response) => end_when_done(&response, actions),
+        Some(answer) => end_when_done(&answer.response, actions),
         None if now != before => actions.push(Action::EndMerge),
         None => {}
     }

@@ -9,6 +9,7 @@ use halfvector_graph::node_def::NodeDef;
 use halfvector_graph::value::Value;
 
 use crate::action::Action;
+use crate::panes::inspector::row::row;
 use crate::session::Session;
 
 /// The node whose constants are set by hand.
@@ -48,7 +49,7 @@ pub(crate) fn is_metal(def: &NodeDef) -> bool {
 pub(crate) fn show(ui: &mut egui::Ui, session: &Session, id: &NodeId, def: &NodeDef, actions: &mut Vec<Action>) {
     let Some(node) = session.node(id) else { return };
     let shown = if def.id == CONDUCTOR { "By optical constants" } else { def.label.as_str() };
-    egui::ComboBox::new("metal", "Metal").selected_text(shown).show_ui(ui, |ui| {
+    named(ui, "metal", "Which metal's reflectance it has", shown, |ui| {
         for metal in Library::standard().iter().filter(|metal| is_metal(metal)) {
             let text = if metal.id == CONDUCTOR { "By optical constants" } else { metal.label.as_str() };
             if ui.selectable_label(metal.id == def.id, text).on_hover_text(first_line(&metal.help)).clicked()
@@ -92,8 +93,7 @@ fn constants(ui: &mut egui::Ui, id: &NodeId, node: &Node, actions: &mut Vec<Acti
     let label = |of: &Constants| library.get(of.metal).map_or(of.metal, |def| def.label.as_str());
     let known = CONSTANTS.iter().find(|of| is_set("eta", of.eta) && is_set("k", of.k));
     let shown = known.map_or("Its own", label);
-    let combo = egui::ComboBox::new("constants", "Eta and k of").selected_text(shown);
-    let response = combo.show_ui(ui, |ui| {
+    named(ui, "eta and k of", "Sets both to a metal's, as they were published", shown, |ui| {
         for of in &CONSTANTS {
             let help = format!("eta {}, k {} at 650, 550, 450 nm", numbers(of.eta), numbers(of.k));
             let is_known = known.is_some_and(|known| known.metal == of.metal);
@@ -107,7 +107,21 @@ fn constants(ui: &mut egui::Ui, id: &NodeId, node: &Node, actions: &mut Vec<Acti
             }
         }
     });
-    response.response.on_hover_text("Sets both to a metal's, as they were published");
+}
+
+/// A row with a choice.
+fn named(ui: &mut egui::Ui, name: &str, hint: &str, shown: &str, add_choices: impl FnOnce(&mut egui::Ui)) {
+    row(
+        ui,
+        egui::RichText::new(name),
+        hint,
+        None,
+        |ui, label| {
+            let combo = egui::ComboBox::from_id_salt(name).selected_text(shown).width(ui.available_width() - 8.0);
+            combo.show_ui(ui, add_choices).response.labelled_by(label);
+        },
+        None,
+    );
 }
 
 fn numbers(of: [f32; 3]) -> String {

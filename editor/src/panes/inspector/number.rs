@@ -1,6 +1,8 @@
 //! Numbers: a slider over the soft range, and the exact value, which may lie outside of it. Angles are shown in degrees.
 
-use eframe::egui::{self, DragValue, Response, Slider, SliderClamping};
+use eframe::egui::{self, Slider, SliderClamping};
+
+use crate::written::{self, Answer, Kind};
 
 /// How a number is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +28,10 @@ impl Style<'_> {
         let value = if self.unit == "rad" { shown.to_radians() } else { shown };
         // The largest finite number in place of infinity.
         (value as f32).clamp(f32::MIN, f32::MAX)
+    }
+
+    fn kind(self, suffix: &str) -> Kind<'_> {
+        Kind { is_whole: self.is_whole, unit: suffix }
     }
 
     fn suffix(self) -> String {
@@ -54,54 +60,62 @@ impl Style<'_> {
 }
 
 /// A slider, where there is a range and room for it, and the exact value.
-pub(crate) fn number(ui: &mut egui::Ui, value: &mut f32, style: Style<'_>, label: egui::Id) -> Response {
+pub(crate) fn number(ui: &mut egui::Ui, value: &mut f32, style: Style<'_>, label: egui::Id) -> Answer {
     let mut shown = style.shown(*value);
     let slider_width = ui.available_width() - VALUE_WIDTH - ui.spacing().item_spacing.x;
-    let mut response: Option<Response> = None;
+    let mut slid = None;
     if let Some([low, high]) = style.shown_range().filter(|_| slider_width > 40.0) {
         ui.spacing_mut().slider_width = slider_width;
         let mut slider = Slider::new(&mut shown, low..=high).clamping(SliderClamping::Never).show_value(false);
         if style.is_whole {
             slider = slider.integer();
         }
-        response = Some(ui.add(slider).labelled_by(label));
+        slid = Some(ui.add(slider).labelled_by(label));
     }
-    let exact = exact(ui, &mut shown, style).labelled_by(label);
-    let response = match response {
-        Some(slider) => slider | exact,
+    let width = VALUE_WIDTH.min(ui.available_width());
+    let exact = exact(ui, &mut shown, style, 5, width, (label, "Drag, or double click to write"));
+    let answer = match slid {
+        Some(slider) => Answer::from(slider) | exact,
         None => exact,
     };
-    if response.changed() {
+    if answer.response.changed() {
         *value = style.stored(shown);
     }
-    response
+    answer
 }
 
 /// The components of a vector side by side.
-pub(crate) fn vector(ui: &mut egui::Ui, values: &mut [f32], style: Style<'_>, label: egui::Id) -> Response {
+pub(crate) fn vector(ui: &mut egui::Ui, values: &mut [f32], style: Style<'_>, label: egui::Id) -> Answer {
     let count = values.len().max(1) as f32;
     let width = (ui.available_width() - ui.spacing().item_spacing.x * (count - 1.0)) / count;
-    let mut all: Option<Response> = None;
+    let mut all: Option<Answer> = None;
     for (value, name) in values.iter_mut().zip(["x", "y", "z", "w"]) {
         let mut shown = style.shown(*value);
-        let speed = style.speed(shown);
-        let drag = DragValue::new(&mut shown).speed(speed).max_decimals(4).suffix(style.suffix());
-        let response = ui.add_sized([width, ui.spacing().interact_size.y], drag).labelled_by(label).on_hover_text(name);
-        if response.changed() {
+        let answer = exact(ui, &mut shown, style, 4, width, (label, name));
+        if answer.response.changed() {
             *value = style.stored(shown);
         }
         all = Some(match all {
-            Some(before) => before | response,
-            None => response,
+            Some(before) => before | answer,
+            None => answer,
         });
     }
-    all.unwrap_or_else(|| ui.label(""))
+    all.unwrap_or_else(|| ui.label("").into())
 }
 
-fn exact(ui: &mut egui::Ui, shown: &mut f64, style: Style<'_>) -> Response {
+fn exact(
+    ui: &mut egui::Ui,
+    shown: &mut f64,
+    style: Style<'_>,
+    digits: usize,
+    width: f32,
+    (label, hint): (egui::Id, &str),
+) -> Answer {
     let speed = style.speed(*shown);
-    let mut drag = DragValue::new(shown).speed(speed).suffix(style.suffix());
-    drag = if style.is_whole { drag.fixed_decimals(0) } else { drag.max_decimals(5) };
-    let width = VALUE_WIDTH.min(ui.available_width());
-    ui.add_sized([width, ui.spacing().interact_size.y], drag).on_hover_text("Drag, or double click to write")
+    let suffix = style.suffix();
+    written::drag(ui, shown, style.kind(&suffix), |ui, drag| {
+        let drag = drag.speed(speed);
+        let drag = if style.is_whole { drag.fixed_decimals(0) } else { drag.max_decimals(digits) };
+        ui.add_sized([width, ui.spacing().interact_size.y], drag).labelled_by(label).on_hover_text(hint)
+    })
 }

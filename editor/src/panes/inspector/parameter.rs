@@ -5,9 +5,10 @@ use halfvector_graph::document::{Parameter, is_name};
 use halfvector_graph::edit::Edit;
 
 use crate::action::Action;
-use crate::panes::inspector::row::{end_when_done, named_text};
+use crate::panes::inspector::row::{end_when_done, gives_up, named_text};
 use crate::session::Session;
 use crate::theme;
+use crate::written::{self, Kind};
 
 /// Draws the fields of the parameter at a place of the document's list.
 pub(crate) fn show(ui: &mut egui::Ui, session: &Session, place: usize, actions: &mut Vec<Action>) {
@@ -37,14 +38,18 @@ pub(crate) fn show(ui: &mut egui::Ui, session: &Session, place: usize, actions: 
             actions.push(Action::EndMerge);
         }
         if let Some([mut low, mut high]) = parameter.range {
-            let first = ui.add(DragValue::new(&mut low).speed(0.01)).on_hover_text("From");
+            let bound = |ui: &mut egui::Ui, bound: &mut f32, hint: &str| {
+                let place = |ui: &mut egui::Ui, drag: DragValue<'_>| ui.add(drag.speed(0.01)).on_hover_text(hint);
+                written::drag(ui, bound, Kind::default(), place)
+            };
+            let first = bound(ui, &mut low, "From");
             ui.label("to");
-            let second = ui.add(DragValue::new(&mut high).speed(0.01)).on_hover_text("To");
-            if first.changed() || second.changed() {
+            let second = bound(ui, &mut high, "To");
+            let both = first | second;
+            if !gives_up(&both, actions) && both.response.changed() {
                 set(Parameter { range: Some([low, high]), ..parameter.clone() }, actions);
             }
-            end_when_done(&first, actions);
-            end_when_done(&second, actions);
+            end_when_done(&both.response, actions);
         }
         if ui.small_button("Stop exposing").clicked() {
             actions.push(Action::edit("Stop exposing", Edit::RemoveParameter { place }));
@@ -80,6 +85,17 @@ fn name(
         ui.data_mut(|data| data.remove::<String>(id));
     }
     let fits = is_name(&text) && session.document().parameter(&text).is_none();
+    if response.lost_focus()
+        && text != parameter.name
+        && !fits
+        && !ui.input(|input| input.key_pressed(egui::Key::Escape))
+    {
+        let why = match is_name(&text) {
+            true => "is another parameter's name",
+            false => "is no name: it needs letters, digits and _, first a letter",
+        };
+        written::tell(ui.ctx(), response.rect, format!("“{text}” {why}; it stays {}.", parameter.name));
+    }
     if response.changed() && fits {
         set(Parameter { name: text, ..parameter.clone() }, actions);
     }

@@ -3,6 +3,7 @@
 use eframe::egui::{self, Color32, Response, RichText};
 
 use crate::action::Action;
+use crate::written::Answer;
 
 /// Share of the width that names take.
 const NAME_SHARE: f32 = 0.36;
@@ -56,6 +57,14 @@ pub(crate) fn end_when_done(response: &Response, actions: &mut Vec<Action>) {
     if response.drag_stopped() || response.lost_focus() {
         actions.push(Action::EndMerge);
     }
+}
+
+/// Whether what was changed so far is given up; then it is taken back.
+pub(crate) fn gives_up(answer: &Answer, actions: &mut Vec<Action>) -> bool {
+    if answer.is_given_up {
+        actions.push(Action::TakeBack);
+    }
+    answer.is_given_up
 }
 
 /// Gives a field of text a name for screen readers.

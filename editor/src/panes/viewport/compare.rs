@@ -230,7 +230,7 @@ impl Viewport {
             }
             if let Some(shown) = &side.shown {
                 match &shown.noise {
-                    Some(noise) => text += &format!(" · {} paths, ±{:.1} %", noise.samples, 100.0 * noise.share),
+                    Some(noise) => text += &format!(" · {}", noise.words()),
                     None => text += &format!(" · {:.0} ms", shown.milliseconds),
                 }
             }
@@ -354,14 +354,16 @@ fn compared(job: &Job) -> Difference {
     };
     let [of_a, of_b] = [radiance(a), radiance(b)];
     let errors = flip_ldr(&shown(&of_b), &shown(&of_a), b.width as usize, FlipOptions::default());
-    let noise: Option<Vec<[f64; 3]>> = match &job.noise {
-        [None, None] => None,
-        [Some(one), None] | [None, Some(one)] => Some(one.of_pixels.to_vec()),
-        [Some(a), Some(b)] => {
-            let both = a.of_pixels.iter().zip(b.of_pixels.iter());
-            Some(both.map(|(a, b)| std::array::from_fn(|i| a[i].hypot(b[i]))).collect())
-        }
-    };
+    // Of a single path the noise is not known: nothing is taken off then.
+    let noise: Option<Vec<[f64; 3]>> =
+        match job.noise.each_ref().map(|noise| noise.as_ref().map(|n| n.of_pixels.as_ref())) {
+            [None, None] | [Some(None), _] | [_, Some(None)] => None,
+            [Some(Some(one)), None] | [None, Some(Some(one))] => Some(one.to_vec()),
+            [Some(Some(a)), Some(Some(b))] => {
+                let both = a.iter().zip(b.iter());
+                Some(both.map(|(a, b)| std::array::from_fn(|i| a[i].hypot(b[i]))).collect())
+            }
+        };
     let plain = difference(&of_a, &of_b, noise.as_deref());
     let count = errors.len().max(1) as f64;
     Difference {

@@ -5,7 +5,7 @@ use halfvector_scene::{EnvironmentSource, MeshSource};
 
 use super::Viewport;
 use crate::action::Action;
-use crate::dropped::{Kind, is_picture, take};
+use crate::dropped::{Kind, take};
 use crate::library::LibraryMaterial;
 
 impl Viewport {
@@ -17,7 +17,9 @@ impl Viewport {
         for file in take(ui.ctx(), |kind| kind == Kind::Model) {
             self.set_mesh(MeshSource::File(file));
         }
-        for file in take(ui.ctx(), |kind| kind == Kind::Environment || (is_picture(kind) && is_here)) {
+        for file in take(ui.ctx(), |kind| {
+            kind == Kind::Environment || (matches!(kind, Kind::Picture | Kind::Radiance) && is_here)
+        }) {
             self.set_environment(EnvironmentSource::File(file));
         }
         if response.dnd_hover_payload::<LibraryMaterial>().is_some() {

@@ -4,6 +4,7 @@ use eframe::egui::{self, Color32, Sense};
 
 use super::Viewport;
 use crate::stage::{Lamp, LampKind};
+use crate::written::{self, Kind};
 
 /// Radius of a handle [points].
 const HANDLE: f32 = 8.0;
@@ -33,12 +34,11 @@ impl Viewport {
                         .on_hover_text("Whether it shines");
                     ui.color_edit_button_rgb(&mut lamp.color).on_hover_text("Colour");
                     let speed = 0.01 * f64::from(lamp.brightness.max(0.5));
-                    let brightness = egui::DragValue::new(&mut lamp.brightness)
-                        .range(0.0..=1e6)
-                        .speed(speed)
-                        .max_decimals(2)
-                        .suffix(lamp.kind.unit());
-                    ui.add(brightness).on_hover_text("Brightness");
+                    let kind = Kind { unit: lamp.kind.unit(), ..Kind::default() };
+                    let place = |ui: &mut egui::Ui, drag: egui::DragValue<'_>| {
+                        ui.add(drag.range(0.0..=1e6).speed(speed).max_decimals(2)).on_hover_text("Brightness")
+                    };
+                    written::drag(ui, &mut lamp.brightness, kind, place);
                     if ui.button("Remove").on_hover_text("Removes the light").clicked() {
                         removed = Some(number);
                     }
@@ -48,7 +48,11 @@ impl Viewport {
                         ui.label("Cone")
                             .on_hover_text("Full within the first angle from its axis, none beyond the second");
                         for angle in &mut lamp.cone {
-                            ui.add(egui::DragValue::new(angle).range(0.5..=90.0).speed(0.2).suffix("°"));
+                            let kind = Kind { unit: "°", ..Kind::default() };
+                            let place = |ui: &mut egui::Ui, drag: egui::DragValue<'_>| {
+                                ui.add(drag.range(0.5..=90.0).speed(0.2))
+                            };
+                            written::drag(ui, angle, kind, place);
                         }
                         lamp.cone[1] = lamp.cone[1].max(lamp.cone[0]);
                     });

@@ -20,7 +20,7 @@ impl Viewport {
             let compiled = if shown.is_compiled { " · new shader" } else { "" };
             text = format!("{} · {:.0} ms{compiled}", shown.by, shown.milliseconds);
             if let Some(noise) = &shown.noise {
-                text = format!("{} · {} paths, ±{:.1} %", shown.by, noise.samples, 100.0 * noise.share);
+                text = format!("{} · {}", shown.by, noise.words());
             }
         }
         let color = ui.visuals().weak_text_color();

@@ -9,6 +9,7 @@ use halfvector_scene::{BuiltinMesh, EnvironmentSource, MeshSource};
 use super::Viewport;
 use crate::panes::toggle;
 use crate::session::Session;
+use crate::written::{self, Kind};
 
 /// What the file dialog is open for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -169,14 +170,15 @@ impl Viewport {
             ui.close();
         }
         ui.separator();
-        let rotation = egui::Slider::new(&mut self.stage.environment_rotation, -180.0..=180.0).suffix("°");
-        ui.add(rotation.text("Rotation").max_decimals(0)).on_hover_text("Counter-clockwise seen from above");
+        let kind = Kind { unit: "°", ..Kind::default() };
+        let hint = "Counter-clockwise seen from above";
+        slider(ui, ["Rotation", hint], &mut self.stage.environment_rotation, -180.0..=180.0, kind, 0);
         ui.checkbox(&mut self.stage.shows_environment, "Show it behind the object");
     }
 
     fn display_menu(&mut self, ui: &mut egui::Ui) {
-        let exposure = egui::Slider::new(&mut self.stage.exposure_stops, -6.0..=6.0).max_decimals(2);
-        ui.add(exposure.text("Exposure")).on_hover_text("Brighter by factors of two");
+        let hint = "Brighter by factors of two";
+        slider(ui, ["Exposure", hint], &mut self.stage.exposure_stops, -6.0..=6.0, Kind::default(), 2);
         ui.label("Tone map");
         for map in ToneMap::ALL {
             ui.radio_value(&mut self.stage.tone_map, map, tone_map_label(map));
@@ -283,4 +285,25 @@ fn tone_map_label(map: ToneMap) -> &'static str {
         ToneMap::Agx => "AgX",
         ToneMap::PbrNeutral => "PBR Neutral",
     }
+}
+
+/// A name, a slider and its value, which can be written.
+fn slider(
+    ui: &mut egui::Ui,
+    [name, hint]: [&str; 2],
+    value: &mut f32,
+    range: std::ops::RangeInclusive<f32>,
+    kind: Kind<'_>,
+    digits: usize,
+) {
+    ui.horizontal(|ui| {
+        let label = ui.label(name).on_hover_text(hint).id;
+        let bar = egui::Slider::new(value, range.clone()).show_value(false);
+        ui.add(bar).labelled_by(label).on_hover_text(hint);
+        let speed = (range.end() - range.start()) / 300.0;
+        let place = |ui: &mut egui::Ui, drag: egui::DragValue<'_>| {
+            ui.add(drag.range(range).max_decimals(digits).speed(speed)).labelled_by(label)
+        };
+        written::drag(ui, value, kind, place);
+    });
 }

@@ -38,7 +38,7 @@ impl Kept {
         on_interrupt(move || {
             // Held to the end: no file is half written.
             let report = told.locked();
-            told.end_other();
+            let _none_starts = told.end_other();
             for left in report.left_out.iter().filter(|left| !report.parts.contains(&left.part)) {
                 note(format_args!("not measured: {left}"));
             }
@@ -97,13 +97,12 @@ impl Kept {
         let mut other = self.other.lock().unwrap_or_else(PoisonError::into_inner);
         match other.as_mut() {
             Some(child) => child.try_wait(),
-            // An interrupt has ended it, and is about to end this process.
             None => Ok(None),
         }
     }
 
-    /// Ends the process, where one runs, and takes away what it wrote.
-    fn end_other(&self) {
+    /// Ends the process, where one runs, and takes away what it wrote. While the guard lives no other one starts.
+    fn end_other(&self) -> MutexGuard<'_, Option<Child>> {
         let mut other = self.other.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(mut child) = other.take() {
             // One that has ended by itself cannot be ended.
@@ -111,6 +110,7 @@ impl Kept {
             let _ = child.wait();
         }
         let _ = std::fs::remove_dir_all(again_folder());
+        other
     }
 
     /// Writes a part that is measured to its end, and what of it is not.
