@@ -292,8 +292,9 @@ fn tangents_of_curved_displaced_surfaces_are_those_of_their_shape() {
             angles.len(),
             off / light
         );
-        assert!(angles.len() > 10_000 && mean < 1.5, "{name}: {mean}");
-        assert!(light > 100.0 && off / light < 0.1, "{name}: {}", off / light);
+        // What is left is the half pixel of blocks of 2 x 2; the tube of the torus is bent more.
+        assert!(angles.len() > 10_000 && mean < 2.2, "{name}: {mean}");
+        assert!(light > 100.0 && off / light < 0.03, "{name}: {}", off / light);
     }
 }
 

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use exr::prelude::{
-    LayerAttributes, ReadChannels as _, ReadLayers as _, ReadSpecificChannel as _, SpecificChannels, Vec2,
-    WritableImage as _,
+    ImageAttributes, LayerAttributes, ReadChannels as _, ReadLayers as _, ReadSpecificChannel as _, SpecificChannels,
+    Vec2, WritableImage as _,
 };
 use halfvector_scene::{Display, Picture};
 use image::{ExtendedColorType, ImageEncoder};
@@ -121,11 +121,11 @@ fn exr(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
 fn noisy_exr(picture: &Picture, noise: &OwnNoise) -> Result<Vec<u8>, exr::error::Error> {
     let size = (picture.width as usize, picture.height as usize);
     let at = |place: Vec2<usize>| place.y() * size.0 + place.x();
-    let origin = |attributes: &mut LayerAttributes| {
-        for (name, number) in [(SEED, noise.seed), (SAMPLES, noise.samples)] {
-            let text = exr::meta::attribute::AttributeValue::Text(number.to_string().as_str().into());
-            attributes.other.insert(name.into(), text);
-        }
+    let origin = |layer: &mut LayerAttributes, image: &mut ImageAttributes| {
+        // One in each map: two in one are written in another order each time.
+        let text = |number: u64| exr::meta::attribute::AttributeValue::Text(number.to_string().as_str().into());
+        layer.other.insert(SEED.into(), text(noise.seed));
+        image.other.insert(SAMPLES.into(), text(noise.samples));
     };
     let mut bytes = std::io::Cursor::new(Vec::new());
     let channels = SpecificChannels::build().with_channel("R").with_channel("G").with_channel("B").with_channel("A");
@@ -136,7 +136,7 @@ fn noisy_exr(picture: &Picture, noise: &OwnNoise) -> Result<Vec<u8>, exr::error:
             (r, g, b, a, dr, dg, db)
         });
         let mut image = exr::image::Image::from_channels(size, channels);
-        origin(&mut image.layer_data.attributes);
+        origin(&mut image.layer_data.attributes, &mut image.attributes);
         image.write().to_buffered(&mut bytes)?;
     } else {
         let channels = channels.with_pixel_fn(|place| {
@@ -144,7 +144,7 @@ fn noisy_exr(picture: &Picture, noise: &OwnNoise) -> Result<Vec<u8>, exr::error:
             (r, g, b, a)
         });
         let mut image = exr::image::Image::from_channels(size, channels);
-        origin(&mut image.layer_data.attributes);
+        origin(&mut image.layer_data.attributes, &mut image.attributes);
         image.write().to_buffered(&mut bytes)?;
     }
     Ok(bytes.into_inner())
@@ -171,7 +171,8 @@ pub(crate) fn noise(path: &Path) -> Result<Option<Noise>, String> {
         header.channels.list.iter().any(|channel| channel.name == *name)
     };
     let number = |header: &exr::meta::header::Header, name: &str| -> Option<u64> {
-        match header.own_attributes.other.get(&exr::meta::attribute::Text::from(name)) {
+        let name = exr::meta::attribute::Text::from(name);
+        match header.own_attributes.other.get(&name).or_else(|| header.shared_attributes.other.get(&name)) {
             Some(exr::meta::attribute::AttributeValue::Text(text)) => text.to_string().parse().ok(),
             _ => None,
         }
