@@ -232,6 +232,13 @@ impl Index {
         self.by_name.contains_key(name)
     }
 
+    /// The name of a function of the library as the library has it; none of one that a document brings along.
+    pub(crate) fn name_in_library(name: &str) -> Option<&'static str> {
+        let standard = Index::standard();
+        let (name, number) = standard.by_name.get_key_value(name)?;
+        (standard.items[*number].item.kind == ItemKind::Fn).then_some(name.as_str())
+    }
+
     /// The twin of a function that blends texels by arithmetic; none of one that reads no picture.
     pub(crate) fn blended(&self, function: &str) -> Option<&str> {
         self.blended.get(function).map(String::as_str)

@@ -13,6 +13,11 @@ fn node_color_blend_multiply(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
     return mix(base, base * top, opacity);
 }
 
+/// Screen of both colours at full opacity.
+fn blend_of_screen(base: vec3f, top: vec3f) -> vec3f {
+    return base + top - base * top;
+}
+
 /// Blend Screen
 ///
 /// 1 - (1 - base)(1 - top): lightens, black changes nothing. W3C 2015, "Compositing and Blending Level 1".
@@ -22,7 +27,13 @@ fn node_color_blend_multiply(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_screen(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
-    return mix(base, base + top - base * top, opacity);
+    return mix(base, blend_of_screen(base, top), opacity);
+}
+
+/// Overlay of both colours at full opacity.
+fn blend_of_overlay(base: vec3f, top: vec3f) -> vec3f {
+    let light = 1.0 - 2.0 * (1.0 - base) * (1.0 - top);
+    return select(light, 2.0 * base * top, base <= vec3f(0.5));
 }
 
 /// Blend Overlay
@@ -37,8 +48,17 @@ fn node_color_blend_screen(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_overlay(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
-    let light = 1.0 - 2.0 * (1.0 - base) * (1.0 - top);
-    return mix(base, select(light, 2.0 * base * top, base <= vec3f(0.5)), opacity);
+    return mix(base, blend_of_overlay(base, top), opacity);
+}
+
+/// Soft light of both colours at full opacity.
+fn blend_of_soft_light(base: vec3f, top: vec3f) -> vec3f {
+    let b = clamp(base, vec3f(0.0), vec3f(1.0));
+    let t = clamp(top, vec3f(0.0), vec3f(1.0));
+    let d = select(sqrt(b), ((16.0 * b - 12.0) * b + 4.0) * b, b <= vec3f(0.25));
+    let darker = b - (1.0 - 2.0 * t) * b * (1.0 - b);
+    let lighter = b + (2.0 * t - 1.0) * (d - b);
+    return select(lighter, darker, t <= vec3f(0.5));
 }
 
 /// Blend Soft Light
@@ -54,12 +74,15 @@ fn node_color_blend_overlay(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_soft_light(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
+    return mix(base, blend_of_soft_light(base, top), opacity);
+}
+
+/// Dodge of both colours at full opacity.
+fn blend_of_dodge(base: vec3f, top: vec3f) -> vec3f {
     let b = clamp(base, vec3f(0.0), vec3f(1.0));
-    let t = clamp(top, vec3f(0.0), vec3f(1.0));
-    let d = select(sqrt(b), ((16.0 * b - 12.0) * b + 4.0) * b, b <= vec3f(0.25));
-    let darker = b - (1.0 - 2.0 * t) * b * (1.0 - b);
-    let lighter = b + (2.0 * t - 1.0) * (d - b);
-    return mix(base, select(lighter, darker, t <= vec3f(0.5)), opacity);
+    let rest = 1.0 - clamp(top, vec3f(0.0), vec3f(1.0));
+    let blend = select(vec3f(1.0), b / rest, b < rest);
+    return select(blend, vec3f(0.0), b <= vec3f(0.0));
 }
 
 /// Blend Dodge
@@ -72,10 +95,7 @@ fn node_color_blend_soft_light(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_dodge(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
-    let b = clamp(base, vec3f(0.0), vec3f(1.0));
-    let rest = 1.0 - clamp(top, vec3f(0.0), vec3f(1.0));
-    let blend = select(vec3f(1.0), b / rest, b < rest);
-    return mix(base, select(blend, vec3f(0.0), b <= vec3f(0.0)), opacity);
+    return mix(base, blend_of_dodge(base, top), opacity);
 }
 
 /// Blend Difference

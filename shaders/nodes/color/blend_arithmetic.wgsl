@@ -12,6 +12,11 @@ fn node_color_blend_subtract(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
     return base - top * opacity;
 }
 
+/// Quotient of both colours at full opacity.
+fn blend_of_divide(base: vec3f, top: vec3f) -> vec3f {
+    return base / max(top, vec3f(1e-3));
+}
+
 /// Blend Divide
 ///
 /// base / top: takes a tint or a shadow out of a picture, white changes nothing. A channel of the top below 0.001 counts as 0.001.
@@ -21,7 +26,7 @@ fn node_color_blend_subtract(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_divide(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
-    return mix(base, base / max(top, vec3f(1e-3)), opacity);
+    return mix(base, blend_of_divide(base, top), opacity);
 }
 
 /// Blend Linear Light

@@ -26,6 +26,14 @@ fn node_color_blend_lighten(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
     return mix(base, max(base, top), opacity);
 }
 
+/// Burn of both colours at full opacity.
+fn blend_of_burn(base: vec3f, top: vec3f) -> vec3f {
+    let b = clamp(base, vec3f(0.0), vec3f(1.0));
+    let t = clamp(top, vec3f(0.0), vec3f(1.0));
+    let blend = select(vec3f(0.0), 1.0 - (1.0 - b) / t, 1.0 - b < t);
+    return select(blend, vec3f(1.0), b >= vec3f(1.0));
+}
+
 /// Blend Burn
 ///
 /// 1 - min(1, (1 - base) / top): burns shadows in. A white base stays white, and a black top leaves nothing else.
@@ -36,10 +44,13 @@ fn node_color_blend_lighten(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_burn(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
-    let b = clamp(base, vec3f(0.0), vec3f(1.0));
-    let t = clamp(top, vec3f(0.0), vec3f(1.0));
-    let blend = select(vec3f(0.0), 1.0 - (1.0 - b) / t, 1.0 - b < t);
-    return mix(base, select(blend, vec3f(1.0), b >= vec3f(1.0)), opacity);
+    return mix(base, blend_of_burn(base, top), opacity);
+}
+
+/// Hard light of both colours at full opacity.
+fn blend_of_hard_light(base: vec3f, top: vec3f) -> vec3f {
+    let light = 1.0 - 2.0 * (1.0 - base) * (1.0 - top);
+    return select(light, 2.0 * base * top, top <= vec3f(0.5));
 }
 
 /// Blend Hard Light
@@ -54,8 +65,12 @@ fn node_color_blend_burn(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_hard_light(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
-    let light = 1.0 - 2.0 * (1.0 - base) * (1.0 - top);
-    return mix(base, select(light, 2.0 * base * top, top <= vec3f(0.5)), opacity);
+    return mix(base, blend_of_hard_light(base, top), opacity);
+}
+
+/// Exclusion of both colours at full opacity.
+fn blend_of_exclusion(base: vec3f, top: vec3f) -> vec3f {
+    return base + top - 2.0 * base * top;
 }
 
 /// Blend Exclusion
@@ -68,7 +83,7 @@ fn node_color_blend_hard_light(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_exclusion(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
-    return mix(base, base + top - 2.0 * base * top, opacity);
+    return mix(base, blend_of_exclusion(base, top), opacity);
 }
 
 /// Blend Add

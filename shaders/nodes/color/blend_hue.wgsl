@@ -27,6 +27,14 @@ fn blend_with_saturation(c: vec3f, s: f32) -> vec3f {
     return select(vec3f(0.0), (c - least) * (s / max(spread, DIVISOR_FLOOR)), spread > DIVISOR_FLOOR);
 }
 
+/// Blend by hue of both colours at full opacity.
+fn blend_of_hue(base: vec3f, top: vec3f) -> vec3f {
+    let b = clamp(base, vec3f(0.0), vec3f(1.0));
+    let t = clamp(top, vec3f(0.0), vec3f(1.0));
+    let blend = blend_with_luminosity(blend_with_saturation(t, blend_saturation(b)), blend_luminosity(b));
+    return blend;
+}
+
 /// Blend Hue
 ///
 /// The hue of the top with saturation and luminosity of the base.
@@ -37,10 +45,15 @@ fn blend_with_saturation(c: vec3f, s: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_hue(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
+    return mix(base, blend_of_hue(base, top), opacity);
+}
+
+/// Blend by saturation of both colours at full opacity.
+fn blend_of_saturation(base: vec3f, top: vec3f) -> vec3f {
     let b = clamp(base, vec3f(0.0), vec3f(1.0));
     let t = clamp(top, vec3f(0.0), vec3f(1.0));
-    let blend = blend_with_luminosity(blend_with_saturation(t, blend_saturation(b)), blend_luminosity(b));
-    return mix(base, blend, opacity);
+    let blend = blend_with_luminosity(blend_with_saturation(b, blend_saturation(t)), blend_luminosity(b));
+    return blend;
 }
 
 /// Blend Saturation
@@ -53,10 +66,14 @@ fn node_color_blend_hue(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_saturation(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
+    return mix(base, blend_of_saturation(base, top), opacity);
+}
+
+/// Blend by colour of both colours at full opacity.
+fn blend_of_color(base: vec3f, top: vec3f) -> vec3f {
     let b = clamp(base, vec3f(0.0), vec3f(1.0));
     let t = clamp(top, vec3f(0.0), vec3f(1.0));
-    let blend = blend_with_luminosity(blend_with_saturation(b, blend_saturation(t)), blend_luminosity(b));
-    return mix(base, blend, opacity);
+    return blend_with_luminosity(t, blend_luminosity(b));
 }
 
 /// Blend Colour
@@ -69,9 +86,14 @@ fn node_color_blend_saturation(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_color(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
+    return mix(base, blend_of_color(base, top), opacity);
+}
+
+/// Blend by luminosity of both colours at full opacity.
+fn blend_of_luminosity(base: vec3f, top: vec3f) -> vec3f {
     let b = clamp(base, vec3f(0.0), vec3f(1.0));
     let t = clamp(top, vec3f(0.0), vec3f(1.0));
-    return mix(base, blend_with_luminosity(t, blend_luminosity(b)), opacity);
+    return blend_with_luminosity(b, blend_luminosity(t));
 }
 
 /// Blend Luminosity
@@ -84,7 +106,5 @@ fn node_color_blend_color(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
 /// - opacity: of the upper one [1; 0..1]
 /// - return: the blend
 fn node_color_blend_luminosity(base: vec3f, top: vec3f, opacity: f32) -> vec3f {
-    let b = clamp(base, vec3f(0.0), vec3f(1.0));
-    let t = clamp(top, vec3f(0.0), vec3f(1.0));
-    return mix(base, blend_with_luminosity(b, blend_luminosity(t)), opacity);
+    return mix(base, blend_of_luminosity(base, top), opacity);
 }

@@ -11,8 +11,9 @@ use halfvector_graph::value::Type;
 use crate::ir::{Arena, Entry, Expr, Id, Literal, Program, Stage, Ty};
 use crate::link::Index;
 use crate::passes::eval::{Kind, Number, Value};
+use crate::passes::identity::{Left, left_of};
 use crate::passes::mixed::{MIX_NORMALS, are_same};
-use crate::passes::reduce::Reduced;
+use crate::passes::reduce::{Reduced, is_function};
 
 /// A node whose constant value is not a finite number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,9 +61,7 @@ pub(crate) fn fold_stage<'a>(stage: &mut Stage<'a>, index: &Index, faults: &mut 
             }
             Some(Folded::Same(id)) => id,
             Some(Folded::Spread(id, ty)) => arena.convert(id, ty),
-            Some(Folded::Joined(name, arguments)) => {
-                arena.push(Entry { expr: Expr::Builtin { name, arguments }, ..entry })
-            }
+            Some(Folded::Rest(rest, arguments, ty)) => built(arena, &rest, &arguments, ty, &entry),
             Some(Folded::Struct(members)) => {
                 if members.iter().any(|(_, literal)| !literal.is_finite()) {
                     faults.push(NotFinite { node });
@@ -80,7 +79,8 @@ enum Folded {
     Literal(Literal),
     Same(Id),
     Spread(Id, Type),
-    Joined(&'static str, Vec<Id>),
+    /// What is left of a call of these arguments, of a type.
+    Rest(Reduced, Vec<Id>, Type),
     Struct(Vec<(String, Literal)>),
 }
 
@@ -102,6 +102,11 @@ fn call(
     if function == MIX_NORMALS {
         return end_of_mix(arena, arguments, ty?);
     }
+    if function == "node_math_mix"
+        && let Some(end) = end_of_mix(arena, arguments, ty?)
+    {
+        return Some(end);
+    }
     let literals: Vec<Option<Literal>> = arguments.iter().map(|id| arena.as_literal(*id)).collect();
     if literals.iter().all(Option::is_none) {
         return None;
@@ -122,6 +127,15 @@ fn call(
             _ => return None,
         });
     }
+    if let (Some(left), Some(ty)) = (left_of(arena, function, arguments), ty) {
+        let first = Reduced::Argument(0);
+        let rest = match left {
+            Left::Same => return same_or_spread(arena, *arguments.first()?, ty),
+            Left::AtLeastZero => Reduced::Applied("max", vec![first, Reduced::Known(vec![0.0])]),
+            Left::Saturated => Reduced::Applied("saturate", vec![first]),
+        };
+        return is_of_type(arena, &rest, arguments, ty).then(|| Folded::Rest(rest, arguments.to_vec(), ty));
+    }
     // Whole numbers divide in another way: they are handed on at most.
     let known = literals.iter().map(|l| l.filter(|l| l.ty != Type::I32).map(|l| l.components()));
     let known: Vec<Option<Vec<f32>>> = known.collect();
@@ -135,12 +149,71 @@ fn call(
         }
         Reduced::Argument(kept) => same_or_spread(arena, of(kept)?, ty),
         // What is joined is no longer to be read out of a function.
-        Reduced::Joined(operator, a, b) => {
-            let (a, b) = (of(a)?, of(b)?);
-            let is_so = [a, b].iter().any(|id| value_type(arena.get(*id).ty) == Some(ty));
-            (is_so && is_number(ty)).then(|| Folded::Joined(operator, vec![a, b]))
+        rest => is_of_type(arena, &rest, arguments, ty).then(|| Folded::Rest(rest, arguments.to_vec(), ty)),
+    }
+}
+
+/// Whether what is left of a call is of its type, of arguments that operators of WGSL take.
+fn is_of_type(arena: &Arena<'_>, rest: &Reduced, arguments: &[Id], ty: Type) -> bool {
+    let own = |argument: usize| arguments.get(argument).and_then(|id| value_type(arena.get(*id).ty));
+    match rest {
+        Reduced::Known(numbers) => {
+            let is_whole = numbers.len() == 1 || numbers.len() == ty.components();
+            is_whole && numbers.iter().all(|x| x.is_finite())
+        }
+        Reduced::Argument(argument) => own(*argument).is_some_and(|own| own == ty || own == Type::F32),
+        Reduced::Applied(name, parts) => {
+            let is = |part: &Reduced| match part {
+                Reduced::Argument(argument) => own(*argument) == Some(ty),
+                Reduced::Known(_) => false,
+                _ => true,
+            };
+            let is_spread = is_function(name) || parts.iter().any(is);
+            is_number(ty) && is_spread && parts.iter().all(|part| is_of_type(arena, part, arguments, ty))
+        }
+        Reduced::Called(name, parts) => {
+            let fits = |(part, size): &(Reduced, usize)| {
+                of_size(*size).is_some_and(|of| match part {
+                    Reduced::Argument(argument) => own(*argument) == Some(of),
+                    part => is_of_type(arena, part, arguments, of),
+                })
+            };
+            Index::name_in_library(name).is_some() && parts.iter().all(fits)
         }
     }
+}
+
+/// What is left of a call as expressions in its place.
+fn built<'a>(arena: &mut Arena<'a>, rest: &Reduced, arguments: &[Id], ty: Type, call: &Entry<'a>) -> Id {
+    let expr = match rest {
+        Reduced::Known(numbers) => {
+            let numbers: Vec<f64> = numbers.iter().map(|x| f64::from(*x)).collect();
+            return arena.literal(ty, &numbers);
+        }
+        Reduced::Argument(argument) => return arguments[*argument],
+        Reduced::Applied(name, parts) => {
+            let mut parts: Vec<Id> = parts.iter().map(|part| built(arena, part, arguments, ty, call)).collect();
+            if is_function(name) {
+                parts = parts.into_iter().map(|part| arena.convert(part, ty)).collect();
+            }
+            Expr::Builtin { name, arguments: parts }
+        }
+        Reduced::Called(name, parts) => {
+            let parts =
+                parts.iter().map(|(part, size)| built(arena, part, arguments, of_size(*size).unwrap_or(ty), call));
+            let arguments = parts.collect();
+            match Index::name_in_library(name) {
+                Some(function) => Expr::Call { function, generic: None, arguments },
+                None => call.expr.clone(),
+            }
+        }
+    };
+    arena.push(Entry { expr, ty: Ty::Value(ty), node: call.node, hint: call.hint })
+}
+
+/// The type of so many floats.
+fn of_size(components: usize) -> Option<Type> {
+    [Type::F32, Type::Vec2, Type::Vec3, Type::Vec4].into_iter().find(|ty| ty.components() == components)
 }
 
 /// Whether operators of floats work on a type.

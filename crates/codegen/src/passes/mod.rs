@@ -3,6 +3,7 @@
 pub(crate) mod drop_unused;
 pub(crate) mod eval;
 pub(crate) mod fold;
+pub(crate) mod identity;
 pub(crate) mod idle;
 pub(crate) mod lower;
 pub(crate) mod mixed;

@@ -109,6 +109,70 @@ fn identities_of_several_arguments_vanish() {
     assert!(text.contains("let sum = value_noise_2_d + value_noise_2_d_2; // Sum"), "{text}");
 }
 
+/// Each blend node at an opacity of 0 and 1, and the nodes that change nothing: no line of them holds an opacity, and none a power.
+#[test]
+fn nodes_that_change_nothing_leave_nothing() {
+    const BLENDS: [&str; 19] = [
+        "multiply",
+        "screen",
+        "overlay",
+        "soft_light",
+        "dodge",
+        "difference",
+        "subtract",
+        "divide",
+        "linear_light",
+        "darken",
+        "lighten",
+        "burn",
+        "hard_light",
+        "exclusion",
+        "add",
+        "hue",
+        "saturation",
+        "color",
+        "luminosity",
+    ];
+    let export = |node: &str, input: &str, output: &str, values: &str| {
+        let nodes = format!(
+            r#""noise": {{"node": "procedural/vector_noise_3d"}}, "x": {{"node": "{node}", "label": "Here", "values": {{{values}}}}}"#
+        );
+        let links = format!(
+            r#"{{"from": "noise.{output}", "to": "x.{input}"}}, {{"from": "x.out", "to": "surface.base_color"}}"#
+        );
+        exported(&material("", &nodes, &links), &sun()).wgsl
+    };
+    for blend in BLENDS {
+        let node = format!("color/blend_{blend}");
+        for (opacity, top) in [("1.0", "[0.2, 0.3, 0.4]"), ("0.0", "[0.2, 0.3, 0.4]")] {
+            let text = export(&node, "base", "out", &format!(r#""opacity": {opacity}, "top": {top}"#));
+            assert!(!text.contains("node_color_blend_") && !text.contains("mix(vector_noise"), "{blend}: {text}");
+            assert!(opacity == "1.0" || !text.contains("// Here"), "{blend}: {text}");
+        }
+        let half = export(&node, "base", "out", r#""opacity": 0.5, "top": [0.2, 0.3, 0.4]"#);
+        assert!(half.contains("0.5"), "{blend}: {half}");
+    }
+    for (node, input, values, left) in [
+        ("math/power", "base", r#""exponent": [1.0, 1.0, 1.0]"#, "max("),
+        ("color/gamma", "color", r#""gamma": 1.0"#, "max("),
+        ("color/levels", "color", "", "saturate("),
+    ] {
+        let text = export(node, input, "out", values);
+        let line = text.lines().find(|line| line.contains("// Here")).unwrap_or_default();
+        assert!(line.contains(left) && !text.contains("power"), "{node}: {text}");
+    }
+    for (node, input, values) in [
+        ("color/exposure", "color", r#""stops": 0.0"#),
+        ("color/channel_mixer", "color", ""),
+        ("vector/matrix_transform", "v", ""),
+        ("vector/rotate_euler", "v", ""),
+        ("vector/rotate_about_axis", "v", r#""angle": 0.0"#),
+    ] {
+        let text = export(node, input, "out", values);
+        assert!(!text.contains("// Here"), "{node}: {text}");
+    }
+}
+
 #[test]
 fn what_is_not_finite_is_a_problem_of_its_node() {
     let document = material(

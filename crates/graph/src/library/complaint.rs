@@ -4,13 +4,14 @@
 
 mod habits;
 mod parser;
+mod slices;
 
 use halfvector_shaders::{TokenKind, slice, tokens};
 use naga::valid::{ExpressionError, FunctionError, TypeError, ValidationError};
 use naga::{Block, Module, ScalarKind, Span, Statement, TypeInner, WithSpan};
 
-pub(super) use habits::no_item;
 pub(super) use parser::{is_of_types, of_parser};
+pub(super) use slices::of_slicer;
 
 /// A byte of the text and what is wrong there.
 pub(super) type Complaint = (usize, String);
@@ -50,6 +51,11 @@ pub(super) fn does_not_change(word: &str) -> String {
     format!(
         "`{word}` does not change: arguments and what `let` makes keep their value; make it with `var`, such as `var result = {word};`"
     )
+}
+
+/// What is said of a change of a `const`.
+pub(super) fn is_constant(word: &str) -> String {
+    format!("`{word}` does not change: it is a `const`; make what changes with `var`, such as `var result = {word};`")
 }
 
 /// What is said where nothing closer is known.

@@ -10,9 +10,9 @@ use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use halfvector_shaders::{Item, ItemKind, SliceErrorKind, Token, TokenKind, slice, tokens};
+use halfvector_shaders::{Item, ItemKind, Token, TokenKind, slice, tokens};
 
-use super::loops::work;
+use super::loops::{whole_constants, work};
 use super::signature::{SURFACE_STRUCT, Signatures, judge};
 use super::{Source, borrowed, complaint, line_of, node};
 use crate::document::is_name;
@@ -115,19 +115,14 @@ fn read(id: &str, text: &str) -> Result<CustomFunction, CodeError> {
     if text.len() > MAX_BYTES {
         return fail(MAX_BYTES, format!("the text is longer than {} KiB", MAX_BYTES >> 10));
     }
-    let items = slice(text).map_err(|e| {
-        let message = e.to_string();
-        let message = message.split_once(": ").map_or(message.as_str(), |(_, message)| message);
-        let message = match &e.kind {
-            SliceErrorKind::NotAnItem(found) => complaint::no_item(found).unwrap_or_else(|| message.to_owned()),
-            _ => message.to_owned(),
-        };
-        error_at(text, e.offset, message)
+    let items = slice(text).map_err(|error| {
+        let (at, message) = complaint::of_slicer(text, &error);
+        error_at(text, at, message)
     })?;
     let code: Vec<Token> = tokens(text).into_iter().filter(|token| !token.kind.is_comment()).collect();
     refuse_items(text, &items)?;
     refuse_words(text, &code, &items)?;
-    refuse_structs_in_structs(text, &items)?;
+    refuse_structs_in_structs(text, &code, &items)?;
     let work = work(text, &items, &code)?;
     if halfvector_shaders::generic_types(text).is_some() {
         return fail(0, "a function of a document has fixed types; leave out `//! T =`".into());
@@ -229,6 +224,7 @@ fn is_of_wgsl(name: &str) -> bool {
 
 /// Refuses what reaches beyond arguments and results, and what need not end.
 fn refuse_words(text: &str, code: &[Token], items: &[Item]) -> Result<(), CodeError> {
+    let (aliases, numbers) = (aliases(text, code, items), whole_constants(text, items));
     let word = |i: usize| code.get(i).map_or("", |token| token.text(text));
     for (i, token) in code.iter().enumerate() {
         let message = match token.text(text) {
@@ -242,7 +238,8 @@ fn refuse_words(text: &str, code: &[Token], items: &[Item]) -> Result<(), CodeEr
                 "this reaches beyond the values of a node: its neighbours, memory or rays; leave it out"
             }
             "array" if word(i + 1) == "<" => {
-                if let Some(message) = array_problem(&word, i) {
+                let number = |i: usize| numbers.get(&code.get(i)?.start).copied();
+                if let Some(message) = array_problem(&word, &aliases, &number, i) {
                     message
                 } else {
                     continue;
@@ -280,17 +277,52 @@ fn reaches_beyond(word: &str) -> bool {
         || matches!(word, "textureStore" | "textureBarrier" | "arrayLength")
 }
 
-/// What is wrong with the array type whose name is word `i`.
-fn array_problem<'t>(word: &impl Fn(usize) -> &'t str, i: usize) -> Option<&'static str> {
-    const ELEMENTS: [&str; 13] =
-        ["f32", "i32", "u32", "bool", "vec2f", "vec3f", "vec4f", "vec2i", "vec3i", "vec4i", "vec2u", "vec3u", "vec4u"];
-    if !ELEMENTS.contains(&word(i + 2)) {
-        return Some("an array holds f32, i32, u32, bool or vectors such as vec3f");
+/// The words at which the types behind aliases begin, by the aliases' names.
+fn aliases<'t>(text: &str, code: &[Token], items: &'t [Item]) -> HashMap<&'t str, usize> {
+    let named = items.iter().filter(|item| item.kind == ItemKind::Alias);
+    // The name, and `=` behind it.
+    named
+        .map(|item| (item.name.as_str(), code.partition_point(|token| token.start < item.name_range.end) + 1))
+        .filter(|(_, at)| code.get(at - 1).is_some_and(|token| token.text(text) == "="))
+        .collect()
+}
+
+/// The place behind a type that an array may hold and that begins at word `i`, by whatever name.
+fn element_end<'t>(word: &impl Fn(usize) -> &'t str, aliases: &HashMap<&str, usize>, i: usize) -> Option<usize> {
+    const SCALARS: [&str; 4] = ["f32", "i32", "u32", "bool"];
+    const VECTORS: [&str; 9] = ["vec2f", "vec3f", "vec4f", "vec2i", "vec3i", "vec4i", "vec2u", "vec3u", "vec4u"];
+    let (mut at, mut end) = (i, None);
+    // An alias may be one of an alias; of those in a ring nothing is said here.
+    for _ in 0..=aliases.len() {
+        if let Some(behind) = aliases.get(word(at)) {
+            (at, end) = (*behind, end.or(Some(at + 1)));
+            continue;
+        }
+        if SCALARS.contains(&word(at)) || VECTORS.contains(&word(at)) {
+            return end.or(Some(at + 1));
+        }
+        let is_vector = matches!(word(at), "vec2" | "vec3" | "vec4") && word(at + 1) == "<" && word(at + 3) == ">";
+        return (is_vector && SCALARS.contains(&word(at + 2))).then(|| end.unwrap_or(at + 4));
     }
-    let size = integer(word(i + 4)).filter(|_| word(i + 3) == "," && word(i + 5) == ">");
-    match size {
+    None
+}
+
+/// What is wrong with the array type whose name is word `i`.
+fn array_problem<'t>(
+    word: &impl Fn(usize) -> &'t str,
+    aliases: &HashMap<&str, usize>,
+    number: &impl Fn(usize) -> Option<u64>,
+    i: usize,
+) -> Option<&'static str> {
+    let Some(end) = element_end(word, aliases, i + 2) else {
+        return Some("an array holds f32, i32, u32, bool or vectors such as vec3f");
+    };
+    let size = integer(word(end + 1)).or_else(|| number(end + 1));
+    match size.filter(|_| word(end) == "," && word(end + 2) == ">") {
         Some(size) if size <= MAX_ARRAY => None,
-        _ => Some("an array has a number of elements that stands in its type, at most 256: `array<f32, 8>`"),
+        _ => Some(
+            "an array has a number of elements that stands in its type, at most 256: `array<f32, 8>`, or `array<f32, N>` with `const N = 8;`",
+        ),
     }
 }
 
@@ -300,12 +332,16 @@ pub(super) fn integer(word: &str) -> Option<u64> {
 }
 
 /// The size of a struct of structs of structs grows beyond all bounds.
-fn refuse_structs_in_structs(text: &str, items: &[Item]) -> Result<(), CodeError> {
-    let types: HashSet<&str> = items
-        .iter()
-        .filter(|item| matches!(item.kind, ItemKind::Struct | ItemKind::Alias))
-        .map(|item| item.name.as_str())
-        .collect();
+fn refuse_structs_in_structs(text: &str, code: &[Token], items: &[Item]) -> Result<(), CodeError> {
+    let word = |i: usize| code.get(i).map_or("", |token| token.text(text));
+    let aliases = aliases(text, code, items);
+    let is_large = |item: &&Item| match item.kind {
+        ItemKind::Struct => true,
+        // Another name for a number or a vector hides no struct.
+        ItemKind::Alias => aliases.get(item.name.as_str()).is_none_or(|at| element_end(&word, &aliases, *at).is_none()),
+        _ => false,
+    };
+    let types: HashSet<&str> = items.iter().filter(is_large).map(|item| item.name.as_str()).collect();
     for item in items.iter().filter(|item| item.kind == ItemKind::Struct) {
         let inner = item.references.iter().find(|range| types.contains(&text[(*range).clone()]));
         if let Some(range) = inner {

@@ -33,6 +33,8 @@ struct Local<'t> {
     value: Option<i64>,
     /// Whether it is a `var`.
     changes: bool,
+    /// The whole numbers without a suffix that its type is from, where no type was written.
+    whole: Option<std::ops::Range<usize>>,
 }
 
 /// What a text declares, and the function that is read.
@@ -155,8 +157,11 @@ impl<'t> World<'t> {
     fn function(&mut self, item: &Item) -> Result<(), Stop> {
         let signature = self.head(item)?;
         self.within = (self.written(&item.name_range), signature.result);
-        self.locals =
-            signature.arguments.into_iter().map(|(name, ty)| Local { name, ty, value: None, changes: false }).collect();
+        self.locals = signature
+            .arguments
+            .into_iter()
+            .map(|(name, ty)| Local { name, ty, value: None, changes: false, whole: None })
+            .collect();
         self.block()
     }
 
@@ -170,7 +175,8 @@ impl<'t> World<'t> {
             None
         };
         if !self.reader.take("=") {
-            return Ok(Local { name, ty: declared.unwrap_or(Ty::Unknown), value: None, changes: false });
+            let ty = declared.unwrap_or(Ty::Unknown);
+            return Ok(Local { name, ty, value: None, changes: false, whole: None });
         }
         let value = self.reader.expression().ok_or(None)?;
         let ty = self.ty(&value)?;
@@ -182,9 +188,12 @@ impl<'t> World<'t> {
                     let told = format!("`{name}` is to be {}, and this is {}", wanted.name(), ty.name());
                     return Err(Some((value.range.start, told + &remedy(&wanted, &ty, self.written(&value.range)))));
                 }
-                Ok(Local { name, ty: wanted, value: number, changes: false })
+                Ok(Local { name, ty: wanted, value: number, changes: false, whole: None })
             }
-            None => Ok(Local { name, ty, value: number, changes: false }),
+            None => {
+                let whole = (ty.scalar() == Some(Scalar::Integer)).then_some(value.range);
+                Ok(Local { name, ty, value: number, changes: false, whole })
+            }
         }
     }
 
@@ -383,6 +392,7 @@ impl<'t> World<'t> {
                 && own != Scalar::Bool
                 && matches!(operator, "+" | "-" | "*" | "/" | "%")
             {
+                self.refuse_whole(&place, &given)?;
                 let told = format!("`{name}` is {}, and this is {}", held.name(), given.name());
                 let cure = remedy(&Ty::of(given.size(), own), &given, self.written(&value.range));
                 return Err(Some((value.range.start, told + &cure)));
@@ -405,12 +415,35 @@ impl<'t> World<'t> {
             let given = self.ty(&value)?;
             self.refuse_nothing(&value, &given)?;
             if !given.fits(&held) {
+                self.refuse_whole(&place, &given)?;
                 let told = format!("`{name}` is {}, and this is {}", held.name(), given.name());
                 let cure = remedy(&held, &given, self.written(&value.range));
                 return Err(Some((value.range.start, told + &cure)));
             }
         }
         Ok(())
+    }
+
+    /// Refuses the whole number that a variable was made of, where it is to hold what is none.
+    fn refuse_whole(&self, place: &Expr<'t>, given: &Ty) -> Result<(), Stop> {
+        let mut root = place;
+        while let Kind::Brackets(of) | Kind::Member(of, _) | Kind::Index(of, _) = &root.kind {
+            root = of;
+        }
+        let name = self.written(&root.range);
+        let Some(local) = self.locals.iter().rev().find(|local| local.name == name) else { return Ok(()) };
+        let Some(range) = local.whole.clone().filter(|_| matches!(given.scalar(), Some(Scalar::F32 | Scalar::Decimal)))
+        else {
+            return Ok(());
+        };
+        let written = self.written(&range);
+        let cure = if written.bytes().all(|b| b.is_ascii_digit()) {
+            format!("write `{written}.0`")
+        } else {
+            "write its numbers with a point, such as `0.0`".into()
+        };
+        let told = format!("by this `{name}` is {}, and it takes f32 below; {cure}", local.ty.name());
+        Err(Some((range.start, told)))
     }
 
     /// A type as it is written.
@@ -437,6 +470,10 @@ impl<'t> World<'t> {
             "array" => {
                 let size = match ty.arguments.get(1) {
                     Some(Argument::Number(digits)) => super::custom::integer(digits),
+                    Some(Argument::Type(of)) => {
+                        let known = self.constants.iter().find(|local| local.name == of.name);
+                        known.and_then(|local| u64::try_from(local.value?).ok())
+                    }
                     _ => None,
                 };
                 Ty::Array(Box::new(argument(0)), size)

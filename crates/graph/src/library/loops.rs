@@ -27,18 +27,7 @@ struct Turns {
 /// The turns of loops and calls that each function takes, by name. Refuses loops that are not counted, more turns and calls than
 /// [`MAX_WORK`], and functions that are too long.
 pub(super) fn work<'i>(text: &str, items: &'i [Item], code: &[Token]) -> Result<HashMap<&'i str, u64>, CodeError> {
-    let constants: HashMap<&str, u64> = items
-        .iter()
-        .filter(|item| item.kind == ItemKind::Const)
-        .filter_map(|item| {
-            let (_, value) = text[item.name_range.end..item.end].split_once('=')?;
-            Some((item.name.as_str(), integer(value.split(';').next()?.trim())?))
-        })
-        .collect();
-    // By place, for a local of the same name is another thing.
-    let references = items.iter().flat_map(|item| &item.references);
-    let constants: HashMap<usize, u64> =
-        references.filter_map(|range| Some((range.start, *constants.get(&text[range.clone()])?))).collect();
+    let constants = whole_constants(text, items);
     let functions: Vec<&Item> = items.iter().filter(|item| item.kind == ItemKind::Fn).collect();
     let number: HashMap<&str, usize> = functions.iter().enumerate().map(|(i, item)| (item.name.as_str(), i)).collect();
     let mut calls: Vec<Vec<(usize, u64)>> = Vec::new();
@@ -87,6 +76,19 @@ pub(super) fn work<'i>(text: &str, items: &'i [Item], code: &[Token]) -> Result<
         }
     }
     Ok(functions.iter().zip(total).map(|(item, total)| (item.name.as_str(), total.unwrap_or(1))).collect())
+}
+
+/// The constants of the text that are a whole number and no more, by the places at which they are read: a local of the same name is
+/// another thing.
+pub(super) fn whole_constants(text: &str, items: &[Item]) -> HashMap<usize, u64> {
+    let value = |item: &Item| {
+        let (_, value) = text[item.name_range.end..item.end].split_once('=')?;
+        integer(value.split(';').next()?.trim())
+    };
+    let constants = items.iter().filter(|item| item.kind == ItemKind::Const);
+    let known: HashMap<&str, u64> = constants.filter_map(|item| Some((item.name.as_str(), value(item)?))).collect();
+    let references = items.iter().flat_map(|item| &item.references);
+    references.filter_map(|range| Some((range.start, *known.get(&text[range.clone()])?))).collect()
 }
 
 /// The turns of a function's loops, and what it calls how often.
@@ -180,8 +182,11 @@ fn for_turns(text: &str, code: &[Token], at: usize, constants: &HashMap<usize, u
         },
         _ => return wrong(i, SHAPE),
     };
-    if word(i) != ")" || word(i + 1) != "{" {
+    if word(i) != ")" {
         return wrong(i, SHAPE);
+    }
+    if word(i + 1) != "{" {
+        return wrong(i + 1, "what a loop does stands in `{ }`, one statement, too");
     }
     let way = if is_down { start - end } else { end - start } + i64::from(includes);
     let count = (way.max(0) as u64).div_ceil(step as u64);

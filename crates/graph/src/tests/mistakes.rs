@@ -108,6 +108,14 @@ proptest! {
     }
 }
 
+/// Arrays of vectors by each of their names, and of a length that is a constant.
+#[test]
+fn arrays_by_other_names_are_taken() {
+    let beside = "alias V = vec2<f32>;\nalias W = V;\nconst N = 2;\nconst M: u32 = 3u;\nconst K = array<vec3<f32>, N>(vec3f(1.0), vec3f(0.5));\n                  struct S { a: array<W, M>, b: V, c: array<vec4<i32>, 2> }\nfn g(a: array<V, N>) -> f32 { return a[1].x; }\n";
+    let body = "var s: S; s.a[0] = c.xy; let d = array<W, N>(c.xy, s.b);\nvar e: array<vec2<bool>, 2>; var h: array<f32, M>;\nreturn K[1] * g(d) + h[0];";
+    read_function("test", &text(body, beside)).unwrap_or_else(|error| panic!("{error}"));
+}
+
 #[test]
 fn the_text_that_is_changed_is_sound() {
     read_function("test", &text(SOUND, BESIDE)).unwrap_or_else(|error| panic!("{error}"));

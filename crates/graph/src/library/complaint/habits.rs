@@ -109,6 +109,11 @@ pub(super) fn unknown(word: &str, is_called: bool) -> String {
     if matches!(word, "ddx" | "ddy" | "dFdx" | "dFdy") {
         return format!("there is no `{word}`, and a node may stand in a branch, where pixels beside are not known");
     }
+    if let Some(said) = input(word).filter(|_| !is_called) {
+        return format!(
+            "there is no `{word}`; what a node reads are its arguments: wire it to one, or give one a context, such as `{said}`"
+        );
+    }
     let names = || wgsl_names().chain(SHORT);
     if names().any(|name| name == word) {
         return if is_type(word) {
@@ -123,40 +128,42 @@ pub(super) fn unknown(word: &str, is_called: bool) -> String {
     }
     match nearest(word, borrowed::functions()) {
         Some(likely) => format!("there is no `{word}`; did you mean the library's `{likely}`?"),
-        None if is_input(word) => format!(
-            "there is no `{word}`; what a node reads are its arguments: wire it to one, or give one a context, such as `- uv: where [context uv0]`"
-        ),
         None => format!("there is no `{word}`: it is none of WGSL's, of yours and of the library's"),
     }
 }
 
-/// Whether a word is what other programs hand to shaders.
-fn is_input(word: &str) -> bool {
+/// The line of an argument that reads what other programs, or a context of here, hand to shaders by this name.
+fn input(word: &str) -> Option<&'static str> {
     let word = word.to_lowercase();
     let word = word.strip_prefix("u_").or_else(|| word.strip_prefix("v_")).unwrap_or(&word);
-    [
-        "time",
-        "itime",
-        "uv",
-        "vuv",
-        "fragcoord",
-        "iresolution",
-        "resolution",
-        "normal",
-        "position",
-        "texcoord",
-        "viewdir",
-    ]
-    .contains(&word)
+    match word {
+        "time" | "itime" | "uv" | "vuv" | "uv0" | "fragcoord" | "iresolution" | "resolution" | "texcoord"
+        | "viewdir" => Some("- uv: where [context uv0]"),
+        "position" | "pos" | "world_position" | "worldposition" => Some("- position: where [context world_position]"),
+        "normal" | "world_normal" | "worldnormal" | "vnormal" => Some("- normal: direction [context world_normal]"),
+        _ => None,
+    }
 }
 
 /// What is said of a word that begins no item, where it begins one in another language.
-pub(in super::super) fn no_item(word: &str) -> Option<String> {
+pub(super) fn no_item(word: &str) -> Option<String> {
     let told = match word {
         "void" | "def" | "func" | "function" | "fun" | "inline" | "static" => {
             "a function is written `fn name(x: f32) -> f32 { ... }`"
         }
-        "let" | "#" | "constexpr" | "define" => "what is known beforehand is written `const NAME = 1.0;`",
+        "#include" | "import" | "include" | "use" => {
+            "a node brings nothing in; functions of the library are called by their names"
+        }
+        "#version" | "#extension" | "#pragma" | "precision" => {
+            "a node says nothing of versions, extensions and precision; leave it out"
+        }
+        "uniform" | "varying" | "attribute" | "in" | "out" | "inout" | "layout" | "cbuffer" | "buffer" => {
+            "a node has no inputs beside its function; what it reads are the function's arguments"
+        }
+        word if word.starts_with('#') && word != "#define" => {
+            "WGSL has no preprocessor; what is known beforehand is written `const NAME = 1.0;`"
+        }
+        "let" | "#define" | "constexpr" | "define" => "what is known beforehand is written `const NAME = 1.0;`",
         "type" | "typedef" | "using" => "another name for a type is written `alias Name = vec3f;`",
         word if is_type(word) => {
             "a function is written `fn name(x: f32) -> f32 { ... }`, what is known beforehand `const NAME = 1.0;`"

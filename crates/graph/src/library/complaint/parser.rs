@@ -4,7 +4,7 @@
 use halfvector_shaders::{ItemKind, Token, TokenKind, slice, tokens};
 
 use super::habits::{elsewhere, is_function, is_type, unknown};
-use super::{Complaint, GENERAL, does_not_change, word_at, word_or_sign_at};
+use super::{Complaint, GENERAL, does_not_change, is_constant, word_at, word_or_sign_at};
 use crate::check::words::nearest;
 
 /// Whether a message of the parser is about a type, so that following the types says more.
@@ -56,7 +56,12 @@ pub(in super::super) fn of_parser(text: &str, at: Option<usize>, message: &str, 
         }
         m if m.starts_with("Identifier starts with") => format!("`{word}` begins with `__`; choose another name"),
         m if m.starts_with("invalid left-hand side") => {
-            if notes.iter().any(|note| note.contains("immutable")) {
+            // Brackets about a name are no part of it.
+            let bare = place + (text[place..].len() - text[place..].trim_start_matches(['(', ' ']).len());
+            let word = word_at(text, bare);
+            if is_a_constant(text, bare) {
+                is_constant(word)
+            } else if notes.iter().any(|note| note.contains("immutable")) && !word.is_empty() {
                 does_not_change(word)
             } else {
                 "only a whole variable or one component of it takes a value; set `.x`, `.y` and so on one by one".into()
@@ -64,6 +69,9 @@ pub(in super::super) fn of_parser(text: &str, at: Option<usize>, message: &str, 
         }
         m if m.ends_with("is recursive") => {
             format!("`{word}` is recursive: it calls itself, which WGSL does not allow; write a loop")
+        }
+        m if m.ends_with("is cyclic") && is_no_function(text, word) => {
+            format!("`{word}` is made of itself: what it needs needs it again")
         }
         m if m.ends_with("is cyclic") => {
             format!("`{word}`: functions call each other in a ring, which WGSL does not allow")
@@ -247,20 +255,17 @@ fn expected(text: &str, place: usize, wanted: &str) -> Complaint {
         w if w.starts_with("for loop") => "a loop is written `for (var i = 0; i < 8; i++) { }`".into(),
         "`;`" => return semicolon(text, place, sign, before, is_on_another_line),
         "`)`" | "`]`" | "`}`" | "`,`" | "`(`" | "`<`" => {
-            let likely = match nearest(word_before_bracket(before), ["for", "if", "switch"].into_iter()) {
-                Some(likely) if before.ends_with('(') || before.contains('(') => Some(likely),
-                _ => None,
-            };
-            match likely {
-                Some(likely) => {
-                    let at = before.rfind(word_before_bracket(before)).unwrap_or(place);
-                    let told = format!("there is no `{}`; did you mean `{likely}`?", word_before_bracket(before));
-                    return (at, told);
+            if let Some(told) = in_brackets(text, place, sign) {
+                return told;
+            }
+            match wanted {
+                "`,`" if sign == "=" => {
+                    "an argument has no default here: the node's stand in its comment, `- x: help [1.0]`".into()
                 }
-                None if wanted == "`)`" => format!("a `)` is missing before `{sign}`, or a comma"),
-                None if wanted == "`,`" && sign == ";" => "members are parted by `,`, not by `;`".into(),
-                None if wanted == "`(`" && sign == "<" => "a function has no types in angle brackets".into(),
-                None => format!("a {wanted} is missing before `{sign}`"),
+                "`)`" => format!("a `)` is missing before `{sign}`, or a comma"),
+                "`,`" if sign == ";" => "members are parted by `,`, not by `;`".into(),
+                "`(`" if sign == "<" => "a function has no types in angle brackets".into(),
+                _ => format!("a {wanted} is missing before `{sign}`"),
             }
         }
         _ => format!("`{sign}` is out of place here"),
@@ -340,6 +345,7 @@ fn semicolon(text: &str, place: usize, sign: &str, before: &str, is_on_another_l
             return (before.len() - word.len(), told.into());
         }
         "{" if !word.is_empty() => format!("a value is made in round brackets: `{word}(...)`"),
+        "{" if before.ends_with('>') => format!("a value is made in round brackets: `{}(...)`", last_type(before)),
         _ if is_function(word) => format!("brackets are missing: `{word}(...)`"),
         _ if is_type(sign) && last_word(before[..before.len() - word.len()].trim_end()) == "var" => {
             format!("a `:` is missing before `{sign}`")
@@ -369,9 +375,84 @@ fn is_bracketed_type(before: &str) -> bool {
     before.get(open..before.len() - 1).is_some_and(is_type)
 }
 
-/// The word before the last `(` of a text.
-fn word_before_bracket(before: &str) -> &str {
-    before.rfind('(').map_or("", |at| last_word(before[..at].trim_end()))
+/// What is said where brackets hold what they do not: of the innermost that is open at a byte.
+fn in_brackets(text: &str, place: usize, sign: &str) -> Option<Complaint> {
+    let mut open: Vec<Token> = Vec::new();
+    for token in tokens(text).into_iter().filter(|token| !token.kind.is_comment() && token.start < place) {
+        match token.text(text) {
+            "(" | "[" | "{" => open.push(token),
+            ")" | "]" | "}" => {
+                open.pop();
+            }
+            _ => {}
+        }
+    }
+    let bracket = open.pop()?;
+    let before = text[..bracket.start].trim_end();
+    let word = last_word(before);
+    let start = before.len() - word.len();
+    let is_own = |kind: ItemKind| {
+        let items = slice(text).unwrap_or_default();
+        items.iter().any(|item| item.kind == kind && item.name == word)
+    };
+    match bracket.text(text) {
+        "[" if before.ends_with('>') => {
+            let told = format!("a value is made in round brackets: `{}(...)`", last_type(before));
+            Some((bracket.start, told))
+        }
+        "[" if is_type(word) || is_own(ItemKind::Struct) || is_own(ItemKind::Alias) => {
+            Some((bracket.start, format!("a value is made in round brackets: `{word}(...)`")))
+        }
+        "[" if is_own(ItemKind::Fn) || is_function(word) => {
+            Some((bracket.start, format!("a function is called by round brackets: `{word}(...)`")))
+        }
+        "[" if sign == "," => {
+            Some((place, "one number stands in `[ ]`, an element's; of a matrix write `m[column][row]`".into()))
+        }
+        "(" if sign == "," && word == "if" => {
+            Some((place, "a condition is one value; two are joined by `&&` or `||`".into()))
+        }
+        "(" if sign == "," && word == "switch" => Some((place, "`switch` chooses by one number".into())),
+        "(" if last_word(before[..start].trim_end()) != "fn" && !is_own(ItemKind::Fn) => {
+            const HEADS: [&str; 3] = ["for", "if", "switch"];
+            let likely = nearest(word, HEADS.into_iter()).filter(|_| !HEADS.contains(&word))?;
+            Some((start, format!("there is no `{word}`; did you mean `{likely}`?")))
+        }
+        _ => None,
+    }
+}
+
+/// The type in angle brackets by which a text ends.
+fn last_type(before: &str) -> &str {
+    let mut depth = 0;
+    let open = before.char_indices().rev().find(|(_, c)| {
+        depth += i32::from(*c == '>') - i32::from(*c == '<');
+        depth == 0
+    });
+    let open = open.map_or(0, |(at, _)| at);
+    &before[open - last_word(before[..open].trim_end()).len()..]
+}
+
+/// Whether the name at a byte is a `const` there, of the text or of its function.
+fn is_a_constant(text: &str, place: usize) -> bool {
+    let items = slice(text).unwrap_or_default();
+    let word = word_at(text, place);
+    let is_read = |item: &&halfvector_shaders::Item| item.references.iter().any(|range| range.start == place);
+    if items.iter().any(|item| is_read(&item)) {
+        return items.iter().any(|item| item.kind == ItemKind::Const && item.name == word);
+    }
+    let code: Vec<Token> = tokens(&text[..place]).into_iter().filter(|token| !token.kind.is_comment()).collect();
+    let made = code
+        .windows(2)
+        .rev()
+        .find(|pair| pair[1].text(text) == word && matches!(pair[0].text(text), "const" | "var" | "let" | "fn" | "("));
+    made.is_some_and(|pair| pair[0].text(text) == "const")
+}
+
+/// Whether the text has something of this name that is no function.
+fn is_no_function(text: &str, word: &str) -> bool {
+    let items = slice(text).unwrap_or_default();
+    items.iter().any(|item| item.name == word && item.kind != ItemKind::Fn)
 }
 
 /// The word by which a text ends; empty where it ends by something else.
