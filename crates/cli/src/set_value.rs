@@ -113,6 +113,19 @@ fn vector(numbers: &[f32]) -> Result<Value, String> {
     })
 }
 
+/// A whole number of a range.
+pub(crate) fn whole_number<N: TryFrom<u64>>(text: &str, range: std::ops::RangeInclusive<u64>) -> Result<N, String> {
+    let wanted = || match (range.start(), range.end()) {
+        (0, &u64::MAX) => "write a whole number from 0".to_owned(),
+        (least, most) => format!("write a whole number from {least} to {most}"),
+    };
+    let number: u64 = text.trim().parse().map_err(|_| wanted())?;
+    if !range.contains(&number) {
+        return Err(wanted());
+    }
+    number.try_into().map_err(|_| wanted())
+}
+
 /// Finite numbers separated by commas.
 pub(crate) fn numbers(text: &str) -> Result<Vec<f32>, String> {
     text.split(',')
@@ -128,6 +141,16 @@ pub(crate) fn numbers(text: &str) -> Result<Vec<f32>, String> {
 mod tests {
     use super::*;
     use halfvector_graph::document::Parameter;
+
+    #[test]
+    fn whole_numbers_are_asked_for_in_words() {
+        assert_eq!(whole_number("16", 1..=64), Ok(16_u32));
+        assert_eq!(whole_number(&u64::MAX.to_string(), 0..=u64::MAX), Ok(u64::MAX));
+        for wrong in ["-1", "1.5", "abc", "", "0", "65", "1e1", "99999999999999999999"] {
+            assert_eq!(whole_number::<u32>(wrong, 1..=64), Err("write a whole number from 1 to 64".to_owned()));
+        }
+        assert_eq!(whole_number::<u64>("-1", 0..=u64::MAX), Err("write a whole number from 0".to_owned()));
+    }
 
     fn document() -> Document {
         let mut document = Document::with_surface("plain");

@@ -62,9 +62,7 @@ pub enum DecodeError {
         what: String,
     },
     /// Larger than the limits allow; nothing was allocated for it.
-    #[error(
-        "{format} image: its header says {width} x {height} texels, but {limit}; make it smaller or raise the limit"
-    )]
+    #[error("{format} image: its header says {width} x {height} texels, but {limit}; make it smaller")]
     TooLarge {
         /// The format's name.
         format: &'static str,
@@ -76,7 +74,7 @@ pub enum DecodeError {
         limit: String,
     },
     /// The decoder found, before its own count could be made here, that it needs more memory than the limits allow.
-    #[error("{format} image: reading it needs more memory than the limit; make it smaller or raise the limit")]
+    #[error("{format} image: reading it needs more memory than is allowed; make it smaller")]
     Memory {
         /// The format's name.
         format: &'static str,

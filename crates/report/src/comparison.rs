@@ -3,7 +3,7 @@
 
 use crate::Row;
 use crate::cost::Cost;
-use crate::part::ibl::NOT_TIMED;
+use crate::part::levels::NOT_TIMED;
 use crate::unit::Unit;
 
 /// A method in a comparison.
@@ -13,6 +13,8 @@ pub struct Entry<'a> {
     pub row: &'a Row,
     /// That error.
     pub rms: f64,
+    /// The row of the domain where its largest error is largest: another one, where a peak is narrow.
+    pub largest: &'a Row,
     /// Its rms error where it is smallest.
     pub least_rms: f64,
     /// What it costs; on average over the domains.
@@ -132,9 +134,13 @@ fn comparison<'a>(rows: &'a [Row], cost: Cost, groups: &[Vec<usize>]) -> Compari
         let all: Vec<&Row> = groups.iter().map(|group| &rows[group[k]]).collect();
         let rms = |row: &Row| row.error_rms.unwrap_or(f64::INFINITY);
         let Some(row) = all.iter().copied().max_by(|a, b| rms(a).total_cmp(&rms(b))) else { continue };
+        // The earlier of equals; what has no largest error counts as none.
+        let most = |row: &Row| row.error_max.unwrap_or(-1.0);
+        let largest = all.iter().copied().rev().max_by(|a, b| most(a).total_cmp(&most(b))).unwrap_or(row);
         entries.push(Entry {
             row,
             rms: rms(row),
+            largest,
             least_rms: all.iter().map(|row| rms(row)).fold(f64::INFINITY, f64::min),
             cost: all.iter().filter_map(|row| cost.of(row)).sum::<f64>() / all.len() as f64,
             front: false,
@@ -257,5 +263,27 @@ mod tests {
         let both = &found[0];
         assert_eq!((both.domains.len(), both.unit, both.cost), (2, Unit::Relative, Cost::Call));
         assert_eq!((both.entries[0].rms, both.entries[0].least_rms, both.entries[0].cost), (0.005, 0.001, 5.0));
+    }
+
+    /// A peak may stand where the rms error is small.
+    #[test]
+    fn the_largest_error_is_the_largest_of_all_domains() {
+        let of = |method: &str, domain: &str, rms, most, at: &str| Row {
+            error_max: Some(most),
+            at: Some(at.to_owned()),
+            ..row(method, domain, rms, 1.0)
+        };
+        let rows = vec![
+            of("a", "one; relative", 0.01, 130.0, "peak"),
+            of("b", "one; relative", 0.02, 0.1, "here"),
+            of("a", "two; relative", 0.05, 58.0, "elsewhere"),
+            of("b", "two; relative", 0.01, 0.05, "there"),
+        ];
+        let found = comparisons(&rows);
+        let largest = |k: usize| (found[0].entries[k].largest.error_max, found[0].entries[k].largest.at.as_deref());
+        assert_eq!([largest(0), largest(1)], [(Some(0.1), Some("here")), (Some(130.0), Some("peak"))]);
+        let report = crate::Report { rows: rows.clone(), ..crate::Report::begun(crate::Effort::Quick) };
+        let page = crate::page::html(&report);
+        assert!(page.contains(">13\u{202f}000 %") && page.contains("<td class=\"small\">peak</td>"), "{page}");
     }
 }

@@ -7,7 +7,8 @@ use std::fmt::Debug;
 pub struct Errors {
     max: f64,
     squares: f64,
-    count: u64,
+    /// What the squares count together.
+    count: f64,
     at: String,
     inputs: u64,
     searched: bool,
@@ -18,22 +19,27 @@ impl Errors {
     /// new largest only.
     pub fn add(&mut self, error: f64, at: impl FnOnce() -> String) {
         self.inputs += 1;
-        self.add_one(error, at);
+        self.add_one(error, 1.0, at);
     }
 
     /// Adds the errors of the three numbers of a colour, which are of one input.
     pub fn add_color(&mut self, errors: [f64; 3], at: impl Fn() -> String) {
-        self.inputs += 1;
-        errors.into_iter().for_each(|error| self.add_one(error, &at));
+        self.add_weighted(errors, 1.0, at);
     }
 
-    fn add_one(&mut self, error: f64, at: impl FnOnce() -> String) {
+    /// The same where the input stands for more or less of the domain than others.
+    pub fn add_weighted(&mut self, errors: [f64; 3], weight: f64, at: impl Fn() -> String) {
+        self.inputs += 1;
+        errors.into_iter().for_each(|error| self.add_one(error, weight, &at));
+    }
+
+    fn add_one(&mut self, error: f64, weight: f64, at: impl FnOnce() -> String) {
         let error = if error.is_nan() { f64::INFINITY } else { error.abs() };
-        if error > self.max || self.count == 0 {
+        if error > self.max || self.count == 0.0 {
             (self.max, self.at) = (error, at());
         }
-        self.squares += error * error;
-        self.count += 1;
+        self.squares += weight * error * error;
+        self.count += weight;
     }
 
     /// Takes what a search found beyond the errors that were added: the largest may be larger, the mean square stays that of the
@@ -53,7 +59,7 @@ impl Errors {
 
     /// Root of the mean square; 0 when nothing was added.
     pub fn rms(&self) -> f64 {
-        (self.squares / self.count.max(1) as f64).sqrt()
+        if self.count > 0.0 { (self.squares / self.count).sqrt() } else { 0.0 }
     }
 
     /// Puts the figures into a row.

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Row;
-use crate::part::ibl::NOT_TIMED;
+use crate::part::levels::NOT_TIMED;
 use crate::part::shaders;
 
 /// Why some rows of a part and term have no figure of a kind.

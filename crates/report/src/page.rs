@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::comparison::{Comparison, comparisons};
+use crate::comparison::{Comparison, Entry, comparisons};
 use crate::cost::Cost;
 use crate::part::shaders;
 use crate::plot::{dark_rules, escaped, scatter};
@@ -240,6 +240,27 @@ fn cell(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
     }
 }
 
+/// The cell of a largest error; marked where it is of a list of inputs, and was not searched for.
+fn largest(row: &Row, unit: Unit) -> String {
+    let mark = if is_of_list(row) { " †" } else { "" };
+    cell(row.error_max, |x| words::error(x, unit) + mark)
+}
+
+/// Whether the largest error is that of the inputs that were drawn, and may be larger between them.
+fn is_of_list(row: &Row) -> bool {
+    row.points.is_some() && row.error_max.is_some() && !row.searched
+}
+
+/// What the mark of [`largest`] says, where a table has it.
+fn not_searched<'a>(mut rows: impl Iterator<Item = &'a Row>, page: &mut String) {
+    if rows.any(is_of_list) {
+        page.push_str(
+            "<p class=\"small muted\">† the largest of the inputs that were drawn: it was not searched for, and may be larger between \
+             them.</p>\n",
+        );
+    }
+}
+
 fn table(comparison: &Comparison<'_>, page: &mut String) {
     let has = |some: fn(&Row) -> bool| comparison.entries.iter().any(|entry| some(entry.row));
     let instructions = comparison.cost != Cost::Instructions && has(|row| row.instructions.is_some());
@@ -263,7 +284,7 @@ fn table(comparison: &Comparison<'_>, page: &mut String) {
         let front = if entry.front { " class=\"front\"" } else { "" };
         let _ = write!(page, "<tr{front}><td>{}{}</td>", escaped(&row.method), tags(row));
         page.push_str(&cell(Some(entry.rms), error));
-        page.push_str(&cell(row.error_max, error));
+        page.push_str(&largest(entry.largest, comparison.unit));
         page.push_str(&cell(Some(entry.cost), |x| words::cost(x, comparison.cost)));
         page.push_str(&cell(Some(entry.cost / cheapest.max(f64::MIN_POSITIVE)), |x| format!("{x:.1}")));
         if instructions {
@@ -275,9 +296,10 @@ fn table(comparison: &Comparison<'_>, page: &mut String) {
         if bytes {
             page.push_str(&cell(row.bytes.map(|x| x as f64), |x| words::cost(x, Cost::Bytes)));
         }
-        let _ = writeln!(page, "<td class=\"small\">{}</td></tr>", escaped(&notes(row)));
+        let _ = writeln!(page, "<td class=\"small\">{}</td></tr>", escaped(&notes(entry)));
     }
     page.push_str("</tbody></table></div>\n");
+    not_searched(comparison.entries.iter().map(|entry| entry.largest), page);
 }
 
 fn short(comparison: &Comparison<'_>) -> &'static str {
@@ -292,9 +314,9 @@ fn short(comparison: &Comparison<'_>) -> &'static str {
 }
 
 /// Where the largest error is, and what else is to be known.
-fn notes(row: &Row) -> String {
-    let at = words::shortened(row.at.as_deref().unwrap_or(""));
-    let notes = [at.as_str(), row.note.as_deref().unwrap_or("")];
+fn notes(entry: &Entry<'_>) -> String {
+    let at = words::shortened(entry.largest.at.as_deref().unwrap_or(""));
+    let notes = [at.as_str(), entry.row.note.as_deref().unwrap_or("")];
     notes.into_iter().filter(|note| !note.is_empty()).collect::<Vec<_>>().join("; ")
 }
 

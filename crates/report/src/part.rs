@@ -6,6 +6,7 @@ mod encode;
 pub mod energy;
 mod frames;
 pub mod ibl;
+pub(crate) mod levels;
 pub mod lobes;
 pub mod maps;
 pub mod mips;
@@ -109,7 +110,7 @@ impl Part {
     pub fn seconds(&self, effort: Effort) -> f64 {
         let [quick, full] = match self.name {
             "shaders" => [22.0, 60.0],
-            "ibl" => [15.0, 60.0],
+            "ibl" => [24.0, 80.0],
             "lobes" => [5.0, 35.0],
             "specular_aa" => [1.0, 10.0],
             "pictures" => [30.0, 350.0],

@@ -98,7 +98,8 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
         let chosen = Budget::ALL.map(|budget| {
             let choice = comparison.recommended(budget);
             let said = |entry: &Entry<'_>| {
-                format!("`{}` {}", cell(&entry.row.method), words::error(entry.rms, comparison.unit))
+                let rms = words::error_beside(entry.rms, comparison.unit, comparison.unit.limit(budget));
+                format!("`{}` {rms}", cell(&entry.row.method))
             };
             let text = said(choice.entry);
             let text = if choice.keeps { text } else { format!("{text}, *over the limit*") };
@@ -135,7 +136,7 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
                 "| `{}` | {} | {} | {} | {:.1} | {} |",
                 cell(&entry.row.method),
                 error(Some(entry.rms)),
-                error(entry.row.error_max),
+                error(entry.largest.error_max),
                 words::cost(entry.cost, comparison.cost),
                 entry.cost / cheapest.max(f64::MIN_POSITIVE),
                 if entry.front { "yes" } else { "" }
@@ -232,7 +233,7 @@ fn methods_csv(comparisons: &[Comparison<'_>], rows: &[Row]) -> String {
                 term.name,
                 method.name,
                 number(found.map(|(_, entry)| entry.rms)),
-                number(found.and_then(|(_, entry)| entry.row.error_max)),
+                number(found.and_then(|(_, entry)| entry.largest.error_max)),
                 beside.map_or(String::new(), |x| format!("{x:.2}")),
                 instructions.map_or(String::new(), |x| x.to_string()),
                 own().find_map(|row| row.gpu_ns).map_or(String::new(), |x| format!("{x:.1}")),

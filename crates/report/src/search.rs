@@ -73,9 +73,21 @@ impl Search {
                 starts.push(place);
             }
         }
+        self.from(starts, apart, error)
+    }
+
+    /// The worst near each of the worst of some places, the largest first; it is drawn so far around them at first.
+    pub(crate) fn from<const N: usize>(
+        self,
+        mut starts: Vec<Place<N>>,
+        reach: f64,
+        error: impl Fn([f64; N]) -> f64,
+    ) -> Vec<Place<N>> {
+        starts.sort_by(|a, b| b.1.total_cmp(&a.1));
+        starts.truncate(self.starts);
         let mut random = Random(1);
         let mut found: Vec<Place<N>> =
-            starts.into_iter().map(|start| self.around(start, apart, &error, &mut random)).collect();
+            starts.into_iter().map(|start| self.around(start, reach, &error, &mut random)).collect();
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
         found
     }

@@ -1,5 +1,7 @@
 //! Numbers and findings in words: what a plot shows, said from its data.
 
+use std::fmt::Write;
+
 use crate::Row;
 use crate::choice::Choice;
 use crate::comparison::{Comparison, Entry, alike as alike_within};
@@ -50,11 +52,30 @@ pub fn power_of_ten(exponent: i32) -> String {
 /// An error with its unit, the same one however small it is: 13 %, 5.1×10⁻⁶ %, 12°.
 pub fn error(x: f64, unit: Unit) -> String {
     match unit {
+        // What is not all of it is not called that.
+        Unit::Relative if (99.5..99.95).contains(&(100.0 * x)) => format!("{:.1} %", 100.0 * x),
         Unit::Relative => format!("{} %", number(100.0 * x)),
         Unit::Degrees => format!("{}°", number(x)),
         Unit::Ulps => format!("{} ulp", number(x)),
         Unit::Plain => number(x),
     }
+}
+
+/// An error with as many digits as tell on which side of a limit it is: 1.02° is not 1°.
+pub fn error_beside(x: f64, unit: Unit, limit: f64) -> String {
+    let text = error(x, unit);
+    if x <= limit || text != error(limit, unit) {
+        return text;
+    }
+    let (scale, sign) = match unit {
+        Unit::Relative => (100.0, " %"),
+        Unit::Degrees => (1.0, "°"),
+        Unit::Ulps => (1.0, " ulp"),
+        Unit::Plain => (1.0, ""),
+    };
+    // One digit more, until it shows.
+    let digits = (0..15).find(|&digits| format!("{:.digits$}", scale * x) != format!("{:.digits$}", scale * limit));
+    digits.map_or(text, |digits| format!("{:.digits$}{sign}", scale * x))
 }
 
 /// The rms error of a row, or what it is at most where noise hides it; empty where neither is known.
@@ -208,7 +229,7 @@ pub fn against(domain: &str) -> &str {
     domain.rsplit_once(';').map_or("", |(_, rest)| rest.trim())
 }
 
-/// A text with its long numbers cut to four digits that count: 0.21741936 is 0.2174.
+/// A text with its long numbers cut to four digits that count: 0.21741936 is 0.2174, and 9.9999999e-7 is 1e-6.
 pub fn shortened(text: &str) -> String {
     let is_part = |c: char| c.is_ascii_digit() || c == '.';
     let mut out = String::new();
@@ -216,23 +237,53 @@ pub fn shortened(text: &str) -> String {
     while let Some(start) = rest.find(is_part) {
         let end = rest[start..].find(|c| !is_part(c)).map_or(rest.len(), |length| start + length);
         let word = &rest[start..end];
+        let exponent = exponent(&rest[end..]);
         out.push_str(&rest[..start]);
         match word.parse::<f64>() {
+            Ok(x) if word.len() > 7 && word.contains('.') && x > 0.0 && !exponent.is_empty() => {
+                // Rounded with its exponent, which a carry changes.
+                let whole = format!("{word}{exponent}").parse::<f64>().unwrap_or(x);
+                let short = format!("{whole:.3e}");
+                let (digits, exponent) = short.split_once('e').unwrap_or((&short, "0"));
+                let _ = write!(out, "{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'));
+            }
             Ok(x) if word.len() > 7 && word.contains('.') && x > 0.0 => {
                 let digits = (3.0 - x.log10().floor()).clamp(0.0, 12.0) as usize;
                 let short = format!("{x:.digits$}");
                 out.push_str(short.trim_end_matches('0').trim_end_matches('.'));
             }
-            _ => out.push_str(word),
+            _ => {
+                out.push_str(word);
+                out.push_str(exponent);
+            }
         }
-        rest = &rest[end..];
+        rest = &rest[end + exponent.len()..];
     }
     out + rest
+}
+
+/// The exponent that a text begins with, `e-7`; nothing where there is none.
+fn exponent(text: &str) -> &str {
+    let Some(rest) = text.strip_prefix('e') else { return "" };
+    let digits = rest.strip_prefix('-').unwrap_or(rest);
+    let count = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+    if count == 0 { "" } else { &text[..text.len() - digits.len() + count] }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What is over a limit does not look as if it kept it.
+    #[test]
+    fn errors_beside_a_limit_have_digits_enough() {
+        assert_eq!(error(1.0221, Unit::Degrees), "1.0°");
+        assert_eq!(error_beside(1.0221, Unit::Degrees, 1.0), "1.02°");
+        assert_eq!(error_beside(0.1004, Unit::Relative, 0.1), "10.04 %");
+        assert_eq!(error_beside(0.99, Unit::Degrees, 1.0), "0.99°");
+        assert_eq!(error(0.9953, Unit::Relative), "99.5 %");
+        assert_eq!(error(1.0, Unit::Relative), "100 %");
+    }
 
     #[test]
     fn numbers_have_two_digits() {
@@ -268,6 +319,7 @@ mod tests {
     #[test]
     fn long_numbers_are_cut() {
         assert_eq!(shortened("[0.21741936, 1.9819709e-6, 0.01]"), "[0.2174, 1.982e-6, 0.01]");
+        assert_eq!(shortened("n.h = 9.999999974752427e-7, x = 9.999999747378752e-5"), "n.h = 1e-6, x = 1e-4");
         assert_eq!(shortened("roughness 0.5, n = 12.000000001; 1..2"), "roughness 0.5, n = 12; 1..2");
     }
 

@@ -16,7 +16,7 @@ use crate::failure::Failure;
 use crate::harmonics_file;
 use crate::output::{check_place, note, progress, write_files};
 use crate::picture_file::png;
-use crate::set_value::numbers;
+use crate::set_value::{numbers, whole_number};
 
 /// Prefilters an environment for real-time light: a cube map whose levels are filtered for a rising roughness.
 ///
@@ -39,10 +39,12 @@ pub(crate) struct BakeArgs {
     output: CubeFile,
     /// Texels along an edge of a face of level 0; each further level has half as many
     /// [default: 512, or as many as cube faces in ENV have]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_SIZE as i64))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+        value_parser = |text: &str| whole_number::<u32>(text, 1..=MAX_SIZE as u64))]
     size: Option<u32>,
     /// Number of levels
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=14), conflicts_with = "roughness")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+        value_parser = |text: &str| whole_number::<u32>(text, 1..=14), conflicts_with = "roughness")]
     levels: Option<u32>,
     /// The perceptual roughness of each level, rising, 0 to 1
     #[arg(long, value_name = "R0,R1,...", value_parser = parse_roughness)]

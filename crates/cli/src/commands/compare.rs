@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use halfvector_maps::color::linear_from_srgb;
 use halfvector_reference::metrics::{
-    Beyond, Difference, FlipOptions, beyond_noise, difference, flip_hdr, flip_ldr, flip_of_noise, magma, surroundings,
+    Beyond, Difference, FlipOptions, Noisy, beyond_noise, difference, flip_hdr, flip_ldr, flip_of_noise, magma,
+    surroundings,
 };
 use image::{ExtendedColorType, ImageEncoder};
 
@@ -21,8 +22,9 @@ use crate::reference::roughness;
 ///
 /// An .exr of --backend reference holds the standard error of each pixel. RMSE and relative error are then what noise does not
 /// explain, 0 where chance may explain all, with a bound that they hardly pass and the figure as it is with noise. (Relative is then
-/// to the mean of the pixels around: a noisy pixel does not tell how bright it is.) The mean difference has its standard error, and it
-/// is said what FLIP such noise alone has: a mean no larger than that shows no difference. Two of the same --seed have noise in
+/// to the mean of the pixels around: a noisy pixel does not tell how bright it is.) The mean difference has its standard error; a
+/// mean that chance does not explain counts in both errors, though each pixel's noise hides it. It is said what FLIP such noise alone
+/// has: of a mean no larger than that noise may be all, and the other figures tell more. Two of the same --seed have noise in
 /// common, and of a single path noise is not known: nothing is taken off then, and it is said.
 ///
 /// FLIP of radiance looks at negative numbers as black, as a display shows them. (NVIDIA's program sends them through its tone
@@ -141,8 +143,8 @@ pub(crate) fn run(args: &CompareArgs) -> Result<u8, Failure> {
         kind: if test.displayed { "ldr" } else { "hdr" },
         mean: mean(&errors),
         largest: errors.iter().copied().fold(0.0, f64::max),
-        of_noise: noise.as_ref().map(|noise| {
-            mean(&flip_of_noise(flip_hdr, &reference.numbers, noise, reference.width, FlipOptions::default()))
+        of_noise: noise.as_ref().map(|_| {
+            mean(&flip_of_noise(flip_hdr, noisy(&test), noisy(&reference), reference.width, FlipOptions::default()))
         }),
     };
     let numbers = Numbers {
@@ -199,8 +201,10 @@ impl KnownNoise {
         let brightness = smooth.as_deref().unwrap_or(&reference.numbers);
         let [rmse, relative] = beyond_noise(&test.numbers, &reference.numbers, noise, brightness);
         let variance: f64 = noise.as_flattened().iter().map(|s| s * s).sum();
+        // The channels of a pixel err together: a path brings its noise to all of them.
+        let of_sum: f64 = noise.iter().map(|error| error.iter().sum::<f64>().powi(2)).sum();
         let light: f64 = reference.numbers.as_flattened().iter().sum();
-        let of_mean = if light > 0.0 { variance.sqrt() / light } else { 0.0 };
+        let of_mean = if light > 0.0 { of_sum.sqrt() / light } else { 0.0 };
         KnownNoise { rms: (variance / (3 * noise.len().max(1)) as f64).sqrt(), rmse, relative, of_mean }
     }
 }
@@ -237,6 +241,12 @@ fn combined(test: &Pixels, reference: &Pixels) -> Option<Vec<[f64; 3]>> {
     }
 }
 
+/// A picture and what its file knows of its noise.
+fn noisy(pixels: &Pixels) -> Noisy<'_> {
+    let errors = pixels.noise.as_ref().and_then(|noise| noise.errors.as_deref());
+    Noisy { pixels: &pixels.numbers, standard_error: errors.unwrap_or_default() }
+}
+
 fn text(flip: &Flip, numbers: &Numbers) -> String {
     let Difference { rmse, relative, mean_relative, largest } = numbers.difference;
     let relative_to_light =
@@ -264,8 +274,8 @@ fn text(flip: &Flip, numbers: &Numbers) -> String {
     );
     if let (Some(noise), Some(of_noise)) = (known, flip.of_noise) {
         text += &format!(
-            "\nstandard error   {:.6e}, taken off RMSE and relative error\nFLIP of noise    mean {of_noise:.6}: FLIP no larger shows no \
-             difference",
+            "\nstandard error   {:.6e}, taken off RMSE and relative error\nFLIP of noise    mean {of_noise:.6}: of a FLIP no larger noise \
+             may be all",
             noise.rms
         );
     }

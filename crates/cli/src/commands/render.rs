@@ -15,7 +15,7 @@ use crate::input;
 use crate::output::{check_place, note};
 use crate::picture_file::{PictureFile, PictureFormat, parse_picture_file, write};
 use crate::reference::{self, ReferenceOptions};
-use crate::set_value::{Assignment, numbers, parse_assignment, set};
+use crate::set_value::{Assignment, numbers, parse_assignment, set, whole_number};
 
 /// Draws a material or scene to a picture.
 ///
@@ -55,7 +55,8 @@ pub(crate) struct RenderArgs {
     size: [u32; 2],
     /// Samples per pixel: a square number, as they stand on a regular grid, of 4096 at most; with --backend reference paths
     /// per pixel
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(long, value_name = "N", default_value_t = 16, allow_negative_numbers = true,
+        value_parser = |text: &str| whole_number::<u32>(text, 1..=1 << 20))]
     samples: u32,
     /// Brightens a PNG by so many stops
     #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = parse_finite)]
@@ -73,10 +74,12 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "NAME", default_value = "auto", value_parser = parse_backend)]
     backend: Backend,
     /// Of --backend reference: another seed is another noise, the same one the same picture
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true,
+        value_parser = |text: &str| whole_number::<u64>(text, 0..=u64::MAX))]
     seed: u64,
-    /// Of --backend reference: how often light may go from surface to surface
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    /// Of --backend reference: how often light may go from surface to surface; paths end by themselves, so a large number is all of it
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true,
+        value_parser = |text: &str| whole_number::<u32>(text, 0..=u64::from(u32::MAX)))]
     bounces: u32,
     /// Of --backend reference: what an equirectangular environment is between its texels: bilinear (default), box (constant within
     /// each texel), or vertex-rows (bilinear, the first and the last row at the poles: as Mitsuba 3 reads maps)

@@ -66,6 +66,17 @@ fn the_reference_renders_without_a_gpu() {
         let plain = ["render", "plain.material.json", "--backend", "reference", "--size", "12x10", "-o", name];
         folder.run(&[&plain[..], more].concat())
     };
+    // Counts are asked for in words, negative ones, too.
+    for (option, wrong, range) in [
+        ("--samples", "-1", "from 1 to 1048576"),
+        ("--samples", "1.5", "from 1 to 1048576"),
+        ("--samples", "abc", "from 1 to 1048576"),
+        ("--bounces", "-1", "from 0 to"),
+        ("--seed", "-1", "from 0"),
+    ] {
+        let run = few("a.exr", &[option, wrong]).ends(2).says(&format!("write a whole number {range}"));
+        assert!(!run.stderr.contains("unexpected argument") && run.stderr.contains(option), "{}", run.stderr);
+    }
     few("one.exr", &["--samples", "1"]).ends(0).says("its noise is not known");
     few("two.exr", &two).ends(0).says("2 paths").says("about 71 % only");
     let compared = folder.run(&["compare", "one.exr", "two.exr", "--format", "json"]).ends(0);

@@ -135,6 +135,9 @@ fn for_turns(text: &str, code: &[Token], at: usize, constants: &HashMap<usize, u
         let size = integer(word(at)).or_else(constant).filter(|size| *size <= MAX_COUNT)?;
         Some((sign * size as i64, at + 1))
     };
+    if word(at + 1) == "(" && matches!(word(at + 2), "let" | "const") {
+        return wrong(at + 2, "the counter of a loop changes: `for (var i = 0; i < 8; i++)`");
+    }
     if word(at + 1) != "(" || word(at + 2) != "var" {
         return wrong(at, SHAPE);
     }

@@ -96,27 +96,51 @@ pub fn flip_hdr(reference: &[[f64; 3]], test: &[[f64; 3]], width: usize, options
 /// [`flip_ldr`] or [`flip_hdr`].
 pub type Flip = fn(&[[f64; 3]], &[[f64; 3]], usize, FlipOptions) -> Vec<f64>;
 
-/// What FLIP says of noise alone: of a reference and itself with an error in each channel, drawn from a normal distribution
-/// of the standard error of the difference of two pictures. A picture whose mean FLIP is no larger than the mean of this
-/// is not shown to differ. The channels' errors are taken as independent, and so are the pixels'. The same for the same
-/// pictures; pixels without a standard error have none.
+/// A picture whose noise is known.
+#[derive(Clone, Copy, Debug)]
+pub struct Noisy<'a> {
+    /// The picture.
+    pub pixels: &'a [[f64; 3]],
+    /// Standard error of each channel of each pixel; pixels beyond its end are exact.
+    pub standard_error: &'a [[f64; 3]],
+}
+
+/// What FLIP says of two pictures when nothing but their noise differs: each pixel's difference is taken out, and one drawn
+/// from a normal distribution of its standard error put in its place. Of pictures whose mean FLIP is no larger than the
+/// mean of this, noise may be all. A path brings its noise to all channels alike, so one number is drawn for the three of a pixel;
+/// pixels are independent. The same for the same pictures; pixels without a standard error do not differ.
+///
+/// What takes the place of the pictures a and b of standard errors s and t, s^2 + t^2 = D^2, is m + s^2 / D x and m - t^2 / D x, with x normal
+/// and m = (t^2 a + s^2 b) / D^2, the likeliest of what both show. It has the noise of a, the noise of b, and none in common, where noise
+/// that is added to b alone would stand on what b has already, and draw edges that neither has.
 pub fn flip_of_noise(
     flip: Flip,
-    reference: &[[f64; 3]],
-    standard_error: &[[f64; 3]],
+    test: Noisy<'_>,
+    reference: Noisy<'_>,
     width: usize,
     options: FlipOptions,
 ) -> Vec<f64> {
-    let noisy = |(pixel, value): (usize, &[f64; 3])| -> [f64; 3] {
-        let error = standard_error.get(pixel).copied().unwrap_or_default();
-        std::array::from_fn(|c| {
-            // Box and Muller 1958, "A Note on the Generation of Random Normal Deviates"; 1 - u is never 0.
-            let [u, v] = Random::new(0, pixel as u64, c as u64).pair();
-            value[c] + error[c] * (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos()
-        })
+    let error = |picture: &Noisy<'_>, pixel: usize| picture.standard_error.get(pixel).copied().unwrap_or_default();
+    let noisy = |(pixel, (a, b)): (usize, (&[f64; 3], &[f64; 3]))| -> ([f64; 3], [f64; 3]) {
+        let (s, t) = (error(&test, pixel), error(&reference, pixel));
+        // Box and Muller 1958, "A Note on the Generation of Random Normal Deviates"; 1 - u is never 0.
+        let [u, v] = Random::new(0, pixel as u64, 0).pair();
+        let normal = (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos();
+        let mut drawn = (*b, *b);
+        for c in 0..3 {
+            let both = s[c].hypot(t[c]);
+            if both > 0.0 {
+                let (of_test, of_reference) = ((s[c] / both).powi(2), (t[c] / both).powi(2));
+                let middle = of_reference * a[c] + of_test * b[c];
+                drawn.0[c] = middle + of_test * both * normal;
+                drawn.1[c] = middle - of_reference * both * normal;
+            }
+        }
+        drawn
     };
-    let test: Vec<[f64; 3]> = reference.iter().enumerate().map(noisy).collect();
-    flip(reference, &test, width, options)
+    let pairs = test.pixels.iter().zip(reference.pixels).enumerate();
+    let (drawn_test, drawn_reference): (Vec<_>, Vec<_>) = pairs.map(noisy).unzip();
+    flip(&drawn_reference, &drawn_test, width, options)
 }
 
 /// The stops at which a picture of radiance is looked at.

@@ -106,6 +106,9 @@ pub fn noisy_error(test: &[[f64; 3]], truth: &[[f64; 3]], standard_error: Option
     NoisyError { rms: Some(rms), bound: None, largest: Some(largest.max(rms)), at }
 }
 
+/// How many of its standard errors the mean difference of a channel is off at least where it is no chance.
+const CAUTION_OF_MEAN: f64 = 3.0;
+
 /// What of an error noise does not explain.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Beyond {
@@ -123,6 +126,9 @@ pub struct Beyond {
 ///
 /// How sure the means are is found of the model of [`CleanSquares`] and of how the pixels scatter, whichever says less: few samples
 /// of rare and bright light scatter more than a Gauss curve. What is beyond four standard errors of its pixel is no such scatter.
+///
+/// Where the mean difference of a channel is beyond three of its standard errors, the error is at least that mean, less what noise is
+/// expected to add to it: a mean shows a bias of all pixels that squares of single pixels hide under their noise.
 pub fn beyond_noise(
     test: &[[f64; 3]],
     reference: &[[f64; 3]],
@@ -147,6 +153,9 @@ struct Scatter {
     variance: f64,
     /// With noise.
     plain: f64,
+    /// Sums of each channel's differences, and of the squares of their standard errors.
+    sum: [f64; 3],
+    sum_variance: [f64; 3],
 }
 
 impl Scatter {
@@ -159,12 +168,32 @@ impl Scatter {
         self.plain += difference.iter().map(|d| d * d).sum::<f64>();
         self.squares.square += pixel.square;
         self.squares.count += pixel.count;
+        for c in 0..3 {
+            self.sum[c] += difference[c];
+            self.sum_variance[c] += standard_error[c] * standard_error[c];
+        }
+    }
+
+    /// The mean square of the channels' mean differences that are no chance, and two standard errors more.
+    fn of_mean(&self) -> [f64; 2] {
+        let pixels = (self.squares.count / 3.0).max(1.0);
+        let mut mean = [0.0; 2];
+        for (sum, variance) in self.sum.into_iter().zip(self.sum_variance) {
+            let (difference, error) = (sum.abs() / pixels, variance.sqrt() / pixels);
+            if difference > CAUTION_OF_MEAN * error {
+                mean[0] += without_noise(difference, error) / 3.0;
+                mean[1] += (difference + CAUTION * error).powi(2) / 3.0;
+            }
+        }
+        mean
     }
 
     fn beyond(&self) -> Beyond {
         let squares = CleanSquares { variance: self.variance, ..self.squares };
         let error = if squares.may_be_chance() { 0.0 } else { squares.rms() };
-        Beyond { error, at_most: squares.bound(), with_noise: squares.root(self.plain) }
+        let [mean, mean_at_most] = self.of_mean().map(f64::sqrt);
+        let at_most = squares.bound().max(mean_at_most);
+        Beyond { error: error.max(mean), at_most, with_noise: squares.root(self.plain) }
     }
 }
 
@@ -235,6 +264,31 @@ mod tests {
         assert_eq!(surroundings(&[[1.0; 3]], 1), [[1.0; 3]]);
         assert_eq!(surroundings(&[], 0), [[0.0; 3]; 0]);
         assert_eq!(surroundings(&[[1.0; 3], [3.0; 3], [5.0; 3]], 3)[0], [4.0; 3]);
+    }
+
+    /// A picture that is a fiftieth too bright everywhere, under noise of a fifth: no pixel shows it, and no sum of their squares, but
+    /// the mean does. Without the fiftieth all is noise.
+    #[test]
+    fn a_bias_that_single_pixels_hide_is_an_error() {
+        const COUNT: usize = 96 * 96;
+        let drawn = |seed: u64, factor: f64| -> Vec<[f64; 3]> {
+            let normal = |pixel: usize| {
+                let mut random = crate::random::Random::new(seed, pixel as u64, 0);
+                (0..12).map(|_| random.number()).sum::<f64>() - 6.0
+            };
+            (0..COUNT).map(|pixel| [1.0, 0.5, 0.0].map(|x| factor * x * (1.0 + 0.2 * normal(pixel)))).collect()
+        };
+        let noise = vec![[1.0, 0.5, 0.0].map(|x| x * 0.2 * 2.0_f64.sqrt()); COUNT];
+        let reference = drawn(1, 1.0);
+        let beyond = |test: &[[f64; 3]]| beyond_noise(test, &reference, &noise, &surroundings(&reference, 96));
+        assert_eq!(beyond(&drawn(2, 1.0)).map(|beyond| beyond.error), [0.0; 2]);
+        let [plain, relative] = beyond(&drawn(2, 1.02));
+        let truth = 0.02 * (1.25_f64 / 3.0).sqrt();
+        assert!((plain.error / truth - 1.0).abs() < 0.5, "{plain:?} {truth}");
+        assert!((relative.error / (0.02 * (2.0_f64 / 3.0).sqrt()) - 1.0).abs() < 0.5, "{relative:?}");
+        for figure in [plain, relative] {
+            assert!(figure.at_most > figure.error && figure.with_noise > figure.at_most, "{figure:?}");
+        }
     }
 
     #[test]

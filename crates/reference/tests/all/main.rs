@@ -1,7 +1,7 @@
 //! Tests of the crate as its users see it, in one binary. Those that need the data folder (`HALFVECTOR_DATA`, default
 //! `../shared/data` from the root) are passed over, with a line that says so, where it is absent.
 //!
-//! They compare few and coarse pixels; with `HALFVECTOR_REFERENCE_FULL=1` all of them, with many samples.
+//! They compare few and coarse pixels; with `HALFVECTOR_FULL=1` all of them, with many samples.
 
 mod displacement;
 mod furnace;
@@ -32,7 +32,7 @@ fn data(name: &str) -> Option<PathBuf> {
 
 /// Whether everything is to be compared.
 fn is_full() -> bool {
-    std::env::var_os("HALFVECTOR_REFERENCE_FULL").is_some_and(|value| value != "0")
+    std::env::var_os("HALFVECTOR_FULL").is_some_and(|value| value == "1")
 }
 
 /// A plain material on a built-in shape, single scattering, without an interface over the diffuse base.

@@ -55,7 +55,7 @@ pub(super) fn choices(report: &Report, comparisons: &[Comparison<'_>], page: &mu
         for budget in Budget::ALL {
             let choice = comparison.recommended(budget);
             let Choice { entry, weighed, keeps, library_only, .. } = choice;
-            let figures = figures(comparison, entry, weighed);
+            let figures = figures(comparison, entry, weighed, budget);
             let over = if keeps { "" } else { "<span class=\"tag plain\">over the limit</span>" };
             let tag = if library_only { "<span class=\"tag plain\">library only</span>" } else { "" };
             let of_library = words::of_library(comparison, &choice)
@@ -79,7 +79,7 @@ fn device<'a>(comparisons: &[Comparison<'a>]) -> Option<&'a str> {
 }
 
 /// Error and cost of a choice.
-fn figures(comparison: &Comparison<'_>, entry: &Entry<'_>, weighed: Cost) -> String {
+fn figures(comparison: &Comparison<'_>, entry: &Entry<'_>, weighed: Cost, budget: Budget) -> String {
     let cost = match weighed.of(entry.row).filter(|_| weighed != comparison.cost) {
         Some(cost) => words::cost(cost, weighed),
         None => words::cost(entry.cost, comparison.cost),
@@ -89,5 +89,8 @@ fn figures(comparison: &Comparison<'_>, entry: &Entry<'_>, weighed: Cost) -> Str
     let memory = memory.map_or(String::new(), |bytes| format!(", {}", words::cost(bytes as f64, Cost::Bytes)));
     let count = entry.row.instructions.filter(|_| weighed == Cost::Device);
     let count = count.map_or(String::new(), |count| format!(", {}", words::cost(count as f64, Cost::Instructions)));
-    format!("{}, {cost}{place}{count}{memory}", words::error(entry.rms, comparison.unit))
+    format!(
+        "{}, {cost}{place}{count}{memory}",
+        words::error_beside(entry.rms, comparison.unit, comparison.unit.limit(budget))
+    )
 }

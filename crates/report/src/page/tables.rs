@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use super::{cell, code, tags};
+use super::{cell, code, largest, not_searched, tags};
 use crate::Row;
 use crate::cost::Cost;
 use crate::plot::escaped;
@@ -146,10 +146,9 @@ fn plain(rows: &[&Row], page: &mut String) {
             writeln!(page, "<tr class=\"case\"><td colspan=\"{across}\"><span>{}</span></td></tr>", escaped(&above));
         for row in own {
             let _ = write!(page, "<tr><td>{}{}</td>", escaped(&row.method), tags(row));
-            let error = |x| words::error(x, Unit::of(&row.domain));
             let cells = [
                 cell(row.error_rms.or(row.error_bound), |_| words::rms(row, Unit::of(&row.domain))),
-                cell(row.error_max, error),
+                largest(row, Unit::of(&row.domain)),
                 cell(row.flip, words::number),
                 cell(row.not_finite.map(|x| x as f64), |x| format!("{x:.0}")),
                 cell(row.cost_ns, |x| words::cost(x, Cost::Call)),
@@ -165,14 +164,15 @@ fn plain(rows: &[&Row], page: &mut String) {
             let note = row.note.clone().unwrap_or_default();
             let recorded = row.recorded.as_deref().map_or(String::new(), |when| format!("recorded on {when}"));
             let against = if shared.is_empty() { words::against(&row.domain).to_owned() } else { String::new() };
-            let largest = row.at.as_deref().filter(|_| row.error_max > Some(0.0));
-            let largest = largest.map_or(String::new(), |at| format!("largest at {}", words::shortened(at)));
-            let notes = [against, largest, failure.unwrap_or_default(), recorded, note];
+            let at = row.at.as_deref().filter(|_| row.error_max > Some(0.0));
+            let at = at.map_or(String::new(), |at| format!("largest at {}", words::shortened(at)));
+            let notes = [against, at, failure.unwrap_or_default(), recorded, note];
             let notes: Vec<&str> = notes.iter().map(String::as_str).filter(|note| !note.is_empty()).collect();
             let _ = writeln!(page, "<td class=\"small\">{}</td></tr>", escaped(&notes.join("; ")));
         }
     }
     page.push_str("</tbody></table></div>\n");
+    not_searched(rows.iter().copied(), page);
 }
 
 /// What rows without another to weigh them against show.
@@ -315,6 +315,20 @@ mod tests {
         let hidden = [Row { error_rms: None, error_bound: Some(0.5), ..row("a", "x; in degrees", 0.0) }];
         assert!(shown(&hidden).contains(">below noise (≤ 0.50°)</td>"), "{}", shown(&hidden));
         assert!(shown(&rows[1..]).contains("<tr class=\"case\">"), "a case without a method is no matrix");
+    }
+
+    /// What was searched for and what is the largest of a list look different.
+    #[test]
+    fn a_largest_error_of_a_list_is_marked() {
+        let of = |method: &str, searched| Row {
+            error_max: Some(9.0),
+            points: Some(64),
+            searched,
+            ..row(method, "a mesh; in degrees", 3.0)
+        };
+        let page = shown(&[of("list", false), of("search", true)]);
+        assert_eq!((page.matches("9.0° †").count(), page.matches("† the largest").count()), (1, 1), "{page}");
+        assert!(!shown(&[of("search", true)]).contains('†'));
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub(super) fn rows(effort: Effort) -> Vec<Row> {
         };
         let at = |place: [f64; 2]| {
             let [reflection, albedo] = reflection_and_albedo(place);
-            format!("reflection = {reflection:.3}, albedo = {albedo:.3}")
+            format!("reflection = {reflection:?}, albedo = {albedo:?}")
         };
         let mut row = Row::new("encode", name, DOMAIN);
         let places = (0..side * side).map(|k| [place(k % side), place(k / side)]);

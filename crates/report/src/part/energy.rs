@@ -130,7 +130,7 @@ fn measured(
         let found = value(v, r);
         (found[0] + found[1] - a - b).abs().max((found[1] - b).abs())
     };
-    let at = |[v, r]: [f64; 2]| format!("n.v = {v:.5}, roughness = {r:.5}");
+    let at = |[v, r]: [f64; 2]| format!("n.v = {v:?}, roughness = {r:?}");
     let row = |&(domain, least): &(&str, [f64; 2])| {
         let mut errors = Errors::default();
         let own = points.iter().filter(|(v, r, _)| *v >= least[0] && *r >= least[1]);

@@ -172,7 +172,7 @@ impl Shape {
                 let truth = self.truth(triangle, weights, texel);
                 self.found(triangle, weights, texel).map(|n| degrees_between(n, truth))
             };
-            let said = |[s, t, turn]: [f64; 3]| format!("place = [{s:.3}, {t:.3}], azimuth = {:.0} deg", 360.0 * turn);
+            let said = |[s, t, turn]: [f64; 3]| format!("place = [{s:?}, {t:?}], azimuth = {:?} deg", 360.0 * turn);
             let place = |k: usize| {
                 [0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3]
                     .map(|step| (0.5 + step * k as f64).fract())

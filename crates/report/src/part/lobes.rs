@@ -203,7 +203,7 @@ fn split_sum(frame: Frame<f64>, roughness: f64) -> [f64; 2] {
 }
 
 fn say(frame: Frame<f64>, roughness: f64) -> String {
-    format!("n.v = {:.2}, roughness = {roughness}, normal = {:.3?}", frame.n_dot_v, frame.normal)
+    format!("view = {:?}, roughness = {roughness}, normal = {:?}", frame.view_dir, frame.normal)
 }
 
 /// The base's own reflection: beside it stand the lobes that are looked up in the same way.

@@ -175,7 +175,7 @@ fn search_between(row: &mut Row) {
     row.searched = true;
     if let Some(&([s, t], most)) = worst.first().filter(|(_, most)| row.error_max < Some(*most)) {
         row.error_max = Some(most);
-        row.at = Some(format!("tilt = {:.1} deg, azimuth = {:.1} deg", 85.0 * s, 360.0 * t));
+        row.at = Some(format!("tilt = {:?} deg, azimuth = {:?} deg", 85.0 * s, 360.0 * t));
     }
 }
 

@@ -8,7 +8,7 @@
 //! The examples are read from the folder `examples` of the project, where the program is run; elsewhere there are no rows, and the report
 //! says so.
 
-mod variants;
+pub(super) mod variants;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -365,6 +365,9 @@ fn fill(row: &mut Row, test: &[[f64; 3]], truth: &[[f64; 3]], noise: Option<&[[f
     row.at = error.at.map(|i| format!("column = {}, row = {}", i % width, i / width));
     if error.largest == Some(0.0) {
         (row.at, row.note) = (None, Some("the pictures are the same".to_owned()));
+    }
+    if error.rms.is_some() && error.largest == error.rms && error.largest > Some(0.0) {
+        row.note = Some("of no pixel alone the error is sure to be larger than the rms error, so that this is the bound of the largest".to_owned());
     }
     if error.rms.is_none() {
         row.note = Some("the noise of the reference hides the error".to_owned());

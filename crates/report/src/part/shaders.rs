@@ -18,6 +18,7 @@ use halfvector_ibl::{BakeOptions, BakedEnvironment, bake, studio};
 use halfvector_render::RenderOptions;
 use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, Light, MeshSource, Scene, bake_options, needs};
 
+use super::pictures::variants::unspecialised;
 use super::stations::{NO_DEVICE, Station, shared, station};
 use crate::missing::DEVICE;
 use crate::timing::{SITTINGS, median};
@@ -258,9 +259,13 @@ fn shader(scene: &Scene) -> Option<Shader> {
     halfvector_codegen::shader(&scene.materials[0].document, Library::standard(), &needs, Fold::Live).ok()
 }
 
-/// The SPIR-V of the fragment stage of a surface with its default values, as it is exported.
-pub(super) fn default_surface() -> Option<Vec<u8>> {
-    let scene = scene(Document::with_surface("default"))?;
+/// The SPIR-V of the fragment stage of a surface with its default values, as it is exported: known when it is made, or exposed, each a
+/// uniform.
+pub(super) fn default_surface(exposed: bool) -> Option<Vec<u8>> {
+    let mut scene = scene(Document::with_surface("default"))?;
+    if exposed {
+        scene = unspecialised(&scene);
+    }
     let needs = needs(&scene, ShaderOutput::Radiance);
     let shader = halfvector_codegen::shader(&scene.materials[0].document, Library::standard(), &needs, Fold::Export);
     fragment(&shader.ok()?)

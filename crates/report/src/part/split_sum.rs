@@ -53,7 +53,7 @@ pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment, 
                 let split = std::array::from_fn(|c| (prefiltered[c] * (f0[c] * a + b)) as f32);
                 let exact = std::array::from_fn(|c| f0[c] * light_a[c] + light_b[c]);
                 let mean = std::array::from_fn(|c| truth.mean()[c] * (f0[c] * a + b));
-                add(&mut errors, split, exact, mean, || format!("normal = {n:.3?}, f0 = {f0:?}"));
+                add(&mut errors, split, exact, mean, || format!("normal = {n:?}, view = {v:?}, f0 = {f0:?}"));
             }
         }
         let mut row = Row { domain, ..costs[0].clone() };

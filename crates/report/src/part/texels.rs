@@ -83,7 +83,7 @@ fn decoded(count: usize) -> Vec<Row> {
         let angles = |[s, t, texel]: [f64; 3]| [MOST_TILT * s, std::f64::consts::TAU * t, texel];
         let at = |place: [f64; 3]| {
             let [tilt, azimuth, _] = angles(place);
-            format!("tilt = {tilt:.2} deg, azimuth = {:.2} deg", azimuth.to_degrees())
+            format!("tilt = {tilt:?} deg, azimuth = {:?} deg", azimuth.to_degrees())
         };
         let place =
             |k: usize| [0.819_172_513, 0.671_043_607, 0.549_700_478].map(|step: f64| (0.5 + step * k as f64).fract());
@@ -189,7 +189,7 @@ fn heights(count: usize) -> Vec<Row> {
         let parallax = normal(slopes(parallax_occlusion(field, enters, offset)));
         [up, derived, face, parallax, normal(slopes(enters))].map(|n| degrees_between(n, truth))
     };
-    let at = |place: [f64; 2]| format!("uv where the line of sight enters = {:.3?}", place.map(|x| 0.15 + 0.7 * x));
+    let at = |place: [f64; 2]| format!("uv where the line of sight enters = {:?}", place.map(|x| 0.15 + 0.7 * x));
     let place = |k: usize| [0.754_877_666, 0.569_840_291].map(|step: f64| (0.5 + step * k as f64).fract());
     let drawn: Vec<_> = (0..count).into_par_iter().map(|k| (place(k), angles(place(k)))).collect();
     let row = |(method, name): (usize, &&str)| {
@@ -241,7 +241,7 @@ fn heights_on_ball(count: usize) -> Vec<Row> {
     };
     let place = |k: usize| [0.754_877_666, 0.569_840_291].map(|step: f64| (0.5 + step * k as f64).fract());
     let at = |[s, t]: [f64; 2]| {
-        format!("angle from the pole = {:.1} deg, around it = {:.1} deg", (0.2 + 2.7 * s).to_degrees(), 360.0 * t)
+        format!("angle from the pole = {:?} deg, around it = {:?} deg", (0.2 + 2.7 * s).to_degrees(), 360.0 * t)
     };
     let row = |method: usize| {
         let mut row = Row::new("height_normals", HEIGHTS[method], DOMAIN);

@@ -16,18 +16,9 @@ pub(in super::super) fn of_slicer(text: &str, error: &SliceError) -> Complaint {
             (at, no_item(&format!("#{word}")).unwrap_or(plain))
         }
         SliceErrorKind::NotAnItem(found) => (at, no_item(found).unwrap_or(plain)),
-        SliceErrorKind::Unclosed(')') => fixed_counter(text, at).unwrap_or((at, plain)),
         SliceErrorKind::Unfinished => made_in_braces(text, at).unwrap_or((at, plain)),
         _ => (at, plain),
     }
-}
-
-/// `for (let i = 0; ...`.
-fn fixed_counter(text: &str, at: usize) -> Option<Complaint> {
-    let before = text.get(..at)?.trim_end().strip_suffix('(')?.trim_end();
-    let place = at + (text.get(at..)?.len() - text.get(at..)?.trim_start().len());
-    let is_so = before.ends_with("for") && matches!(word_at(text, place), "let" | "const");
-    is_so.then(|| (place, "the counter of a loop changes: `for (var i = 0; i < 8; i++)`".into()))
 }
 
 /// `const A = { ... }` and `const A = array<f32, 2>{ ... }`.

@@ -13,7 +13,7 @@ pub(super) fn specialised(scene: &Scene) -> Scene {
 }
 
 /// The scene with every number that its surfaces take for themselves as a uniform.
-pub(super) fn unspecialised(scene: &Scene) -> Scene {
+pub(in crate::part) fn unspecialised(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.materials.iter_mut().for_each(|material| expose(&mut material.document));
     scene
