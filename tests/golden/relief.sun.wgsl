@@ -45,7 +45,7 @@ fn vs_main(in: VertexInput) -> Varyings {
     let world_normal = normal_in_world(object.normal_from_object, in.normal);
     let world_tangent = tangent_in_world(object.world_from_object, in.tangent);
     let relief = blended_node_textures_image_vertex(relief_texture, linear_repeat, in.uv0); // Relief
-    let height = (relief.r - 0.0) * 0.05; // Height
+    let height = relief.r * 0.05; // Height
     let displaced_position = displaced(world_position, world_normal, height);
     var out: Varyings;
     out.clip_position = view.clip_from_world * vec4f(displaced_position, 1.0);
@@ -61,7 +61,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let world_normal = normalize_or(in.world_normal, vec3f(0.0, 0.0, 1.0));
     let view_dir = normalize(view.camera_position - in.world_position);
     let relief = blended_node_textures_image(relief_texture, linear_repeat, in.uv0); // Relief
-    let height = (relief.r - 0.0) * 0.05; // Height
+    let height = relief.r * 0.05; // Height
     let displaced_normal = normal_from_height(dpdx(in.world_position), dpdy(in.world_position), world_normal, dpdx(height), dpdy(height));
     let displaced_tangent_2 = displaced_tangent(world_normal, in.world_tangent, displaced_normal);
     let frame = frame_from_normal(displaced_normal, view_dir);
