@@ -65,12 +65,12 @@ const MAX_STEPS: usize = 2;
 /// What a function gives for arguments of which some are known; `None` where that is nothing simple.
 pub(crate) fn reduce(module: &Module, function: &Function, known: &[Option<Vec<f32>>]) -> Option<Reduced> {
     let mut returned = None;
-    let mut calls: HashMap<Handle<Expression>, (Handle<Function>, &[Handle<Expression>])> = HashMap::new();
+    let mut calls = HashMap::new();
     for statement in function.body.iter() {
         match statement {
             Statement::Emit(_) => {}
             Statement::Call { function, arguments, result: Some(result) } => {
-                calls.insert(*result, (*function, arguments));
+                calls.insert(*result, (*function, arguments.as_slice()));
             }
             Statement::Return { value } => returned = *value,
             _ => return None,
