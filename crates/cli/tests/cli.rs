@@ -147,8 +147,8 @@ fn wrong_usage_ends_with_2_before_any_work() {
     for (option, value, words) in [
         ("--size", "0x4", "WIDTHxHEIGHT"),
         ("--size", "100000x100000", "smaller size"),
-        ("--samples", "0", "1..=1048576"),
-        ("--samples", "many", "invalid digit"),
+        ("--samples", "0", "a whole number from 1 to 1048576"),
+        ("--samples", "many", "a whole number from 1 to 1048576"),
         ("--backend", "abacus", "gpu, cpu and reference"),
         ("--light", "candle:1", "candle"),
         ("--tone-map", "sepia", "pbr-neutral"),
@@ -369,16 +369,18 @@ fn what_cannot_be_compared_is_told_before_anything_is_measured() {
     compared("old.json").says("it is not a report");
     compared("missing.json").says("cannot be read");
     compared(".").says("cannot be read");
-    let of = |schema: u32, parts: &str| {
+    let of = |schema: u32, parts: &str, rows: &str| {
         let text = format!(
-            r#"{{"schema": {schema}, "machine": "m", "date": "2026-01-01", "effort": "quick", "parts": [{parts}], "rows": []}}"#
+            r#"{{"schema": {schema}, "machine": "m", "date": "2026-01-01", "effort": "quick", "parts": [{parts}], "rows": [{rows}]}}"#
         );
         folder.write("old.json", &text);
     };
-    of(7, "");
+    of(7, "", "");
     compared("old.json").says("its layout is version 7; this program reads version 1");
-    of(1, r#""brdf""#);
+    of(1, r#""brdf""#, r#"{"part": "brdf", "term": "d", "method": "ggx", "domain": "all"}"#);
     compared("old.json").says("it holds brdf; measured would be mips");
+    of(1, r#""mips""#, "");
+    compared("old.json").says("it holds no part that was measured to its end");
     folder.run(&["report", "--only", "paint", "-o", "out"]).ends(2).says("paint");
     folder.write("file", "");
     folder.run(&["report", "--quick", "--only", "mips", "-o", "file"]).ends(1).says("file");

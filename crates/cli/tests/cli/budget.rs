@@ -38,8 +38,7 @@ fn the_cheapest_choice_within_an_error_is_taken() {
     assert!(explained["methods"]["v"] == "kelemen" && explained["instructions"]["fragment"].as_u64() > Some(20));
 
     let text = std::fs::read_to_string(folder.path("generous/metal.wgsl")).expect("the shader");
-    for words in
-        ["// budget: error 5 is kept: under studio ", "// chosen: v=kelemen (error 90 %, -", "kept: fresnel=schlick"]
+    for words in ["// budget: error 5 is kept: under studio ", "// chosen: v=kelemen (error ", "kept: fresnel=schlick"]
     {
         assert!(text.contains(words), "{words}: {text}");
     }
