@@ -110,7 +110,8 @@ fn starts_number(rest: &str) -> bool {
     rest.starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// Numbers as in WGSL 6.2.2: `7`, `7u`, `.5`, `1.`, `1e-5f`, `0x1.8p-3`. Longest run of characters that could belong.
+/// Numbers as in WGSL 6.2.2: `7`, `7u`, `.5`, `1.`, `1e-5f`, `0x1.8p-3`. Longest run of characters that could belong,
+/// up to a second point.
 fn number_length(rest: &str) -> usize {
     let bytes = rest.as_bytes();
     let hexadecimal = rest.starts_with("0x") || rest.starts_with("0X");
@@ -118,7 +119,7 @@ fn number_length(rest: &str) -> usize {
     let mut at = 0;
     while at < bytes.len() {
         let belongs = bytes[at].is_ascii_alphanumeric()
-            || bytes[at] == b'.'
+            || (bytes[at] == b'.' && !bytes[..at].contains(&b'.'))
             || (at > 0 && matches!(bytes[at], b'+' | b'-') && exponent.contains(&bytes[at - 1]));
         if !belongs {
             break;

@@ -232,6 +232,7 @@ fn refuse_words(text: &str, code: &[Token], items: &[Item]) -> Result<(), CodeEr
             "loop" | "while" => "a loop that need not end; write `for (var i = 0; i < 8; i++)`",
             "discard" => "a node gives values and cannot discard; feed the surface's opacity instead",
             "ptr" | "atomic" | "override" => "a node works on values only; leave it out",
+            "&" if takes_address(text, code, i) => "`&` makes a pointer, and a node works on values only; leave it out",
             word if word.ends_with("Barrier") => "a node has no others to wait for; leave it out",
             name if is_of_some_devices(name) => "not every device has this type; there are f32, i32, u32 and bool",
             name if word(i + 1) == "(" && reaches_beyond(name) && items.iter().all(|item| item.name != name) => {
@@ -253,6 +254,20 @@ fn refuse_words(text: &str, code: &[Token], items: &[Item]) -> Result<(), CodeEr
         return Err(error_at(text, token.start, message));
     }
     Ok(())
+}
+
+/// Whether the `&` at `i` stands in front of a value: it follows no value, or is a third one behind `&&`.
+fn takes_address(text: &str, code: &[Token], i: usize) -> bool {
+    let before = |i: usize| i.checked_sub(1).and_then(|i| code.get(i));
+    let mut first = i;
+    while before(first).is_some_and(|token| token.text(text) == "&" && token.end == code[first].start) {
+        first -= 1;
+    }
+    let follows_value = before(first).is_some_and(|token| match token.kind {
+        TokenKind::Identifier => !matches!(token.text(text), "return" | "case"),
+        kind => kind == TokenKind::Number || matches!(token.text(text), ")" | "]"),
+    });
+    if follows_value { i - first == 2 } else { true }
 }
 
 /// Whether it is the name of a type of 16 or 64 bits.
@@ -302,9 +317,21 @@ fn element_end<'t>(word: &impl Fn(usize) -> &'t str, aliases: &HashMap<&str, usi
             return end.or(Some(at + 1));
         }
         let is_vector = matches!(word(at), "vec2" | "vec3" | "vec4") && word(at + 1) == "<" && word(at + 3) == ">";
-        return (is_vector && SCALARS.contains(&word(at + 2))).then(|| end.unwrap_or(at + 4));
+        return (is_vector && SCALARS.contains(&behind_aliases(word, aliases, at + 2))).then(|| end.unwrap_or(at + 4));
     }
     None
+}
+
+/// The word `i`, or the one that it is another name for.
+fn behind_aliases<'t>(word: &impl Fn(usize) -> &'t str, aliases: &HashMap<&str, usize>, i: usize) -> &'t str {
+    let mut at = i;
+    for _ in 0..=aliases.len() {
+        match aliases.get(word(at)) {
+            Some(behind) => at = *behind,
+            None => break,
+        }
+    }
+    word(at)
 }
 
 /// What is wrong with the array type whose name is word `i`.
@@ -318,7 +345,8 @@ fn array_problem<'t>(
         return Some("an array holds f32, i32, u32, bool or vectors such as vec3f");
     };
     let size = integer(word(end + 1)).or_else(|| number(end + 1));
-    match size.filter(|_| word(end) == "," && word(end + 2) == ">") {
+    let closes = word(end + 2) == ">" || (word(end + 2) == "," && word(end + 3) == ">");
+    match size.filter(|_| word(end) == "," && closes) {
         Some(size) if size <= MAX_ARRAY => None,
         _ => Some(
             "an array has a number of elements that stands in its type, at most 256: `array<f32, 8>`, or `array<f32, N>` with `const N = 8;`",

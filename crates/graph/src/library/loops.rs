@@ -214,7 +214,7 @@ fn for_turns(text: &str, code: &[Token], at: usize, constants: &HashMap<usize, u
     wrong(at, SHAPE)
 }
 
-/// Whether the name at token `at` is declared again, assigned to, or its address is taken. Brackets around it hide nothing.
+/// Whether the name at token `at` is declared again or assigned to. Brackets around it hide nothing.
 fn changes(text: &str, code: &[Token], at: usize) -> bool {
     let word = |i: usize| code.get(i).map_or("", |token| token.text(text));
     let before = |i: usize| i.checked_sub(1).map_or("", word);
@@ -226,17 +226,6 @@ fn changes(text: &str, code: &[Token], at: usize) -> bool {
     while before(first) == "(" && word(last + 1) == ")" {
         (first, last) = (first - 1, last + 1);
     }
-    let is_operand = |i: Option<&Token>| {
-        i.is_some_and(|token| token.kind != TokenKind::Punctuation || matches!(token.text(text), ")" | "]"))
-            && !matches!(i.map_or("", |token| token.text(text)), "return")
-    };
-    // `&&` takes no address; what a third one does is its own.
-    let mut row = 0;
-    while before(first - row) == "&" && (row == 0 || code[first - row - 1].end == code[first - row].start) {
-        row += 1;
-    }
-    let is_logical = row > 0 && row % 2 == 0;
-    let address = before(first) == "&" && !is_logical && !is_operand(first.checked_sub(2).and_then(|i| code.get(i)));
     let assigned = match (word(last + 1), word(last + 2), word(last + 3)) {
         ("=", next, _) => next != "=",
         ("+" | "-" | "*" | "/" | "%" | "&" | "|" | "^", "=", _) => true,
@@ -244,5 +233,5 @@ fn changes(text: &str, code: &[Token], at: usize) -> bool {
         ("<", "<", "=") | (">", ">", "=") => true,
         _ => false,
     };
-    address || declared || assigned
+    declared || assigned
 }

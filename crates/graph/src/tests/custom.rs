@@ -182,11 +182,11 @@ fn what_need_not_end_is_refused() {
         ("for (var i = 0; i < 10; i++) { (i) = 0; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { ((i))--; }\nreturn x;", "counter is changed"),
         ("for (var i = 0; i < 10; i++) { (\n  i // here\n) -= 1; }\nreturn x;", "counter is changed"),
-        ("for (var i = 0; i < 10; i++) { let p = & ((i)); *p = 0; }\nreturn x;", "counter is changed"),
-        ("for (var i = 0; i < 10; i++) { let p = &i; *p = 0; }\nreturn x;", "counter is changed"),
+        ("for (var i = 0; i < 10; i++) { let p = & ((i)); *p = 0; }\nreturn x;", "makes a pointer"),
+        ("for (var i = 0; i < 10; i++) { let p = &i; *p = 0; }\nreturn x;", "makes a pointer"),
         ("for (var i = 0; i < 10; i++) { if x > 0.0 { i <<= 0u; } }\nreturn x;", "counter is changed"),
-        ("for (var i = 0; i < 10; i++) { let p = true && &i; }\nreturn x;", "counter is changed"),
-        ("for (var i = 0; i < 10; i++) { let p = true &&&i; }\nreturn x;", "counter is changed"),
+        ("for (var i = 0; i < 10; i++) { let p = true && &i; }\nreturn x;", "makes a pointer"),
+        ("for (var i = 0; i < 10; i++) { let p = true &&&i; }\nreturn x;", "makes a pointer"),
         ("for (var i = 0; i < 1000000; i++) { }\nreturn x;", "turns of loops and calls"),
         ("for (var i = 0; i < 2147483647; i += 1048576) { }\nreturn x;", COUNTED),
         ("for (var i = 0; i < 8; i += 2147483647) { }\nreturn x;", COUNTED),
@@ -198,6 +198,9 @@ fn what_need_not_end_is_refused() {
         ("return f(x);", "is recursive"),
     ] {
         refused(&text(body, "const N = 8;\n"), part);
+    }
+    for sound in ["if x > 0.5&&true&&x < 2.0 { return x; }\nreturn x;", "let n = 6 & 3;\nreturn f32(n&2);"] {
+        assert_eq!(read_function("test", &text(sound, "")).err().map(|error| error.to_string()), None);
     }
     let shadows = "alias i32 = u32;\n";
     refused(&text("for (var j: i32 = 5; j >= 0; j--) { }\nreturn x;", shadows), "`i32` is a type of WGSL");

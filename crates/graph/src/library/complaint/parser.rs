@@ -120,9 +120,6 @@ pub(in super::super) fn of_parser(text: &str, at: Option<usize>, message: &str, 
                 false => (place, "`*` stands between two values here; a node has no pointers".into()),
             };
         }
-        m if m.starts_with("the operand of the `&`") || m.contains("address of") || m.contains("pointer") => {
-            "`&` makes a pointer, and a node works on values only; leave it out".into()
-        }
         m if m.ends_with("is not constructible") => format!("no value is made by `{word}(...)` of these"),
         m if m.starts_with("function does not return any value") => {
             format!("`{word}` gives nothing; write `-> f32`, or another type, after its arguments")

@@ -165,7 +165,7 @@ impl<'t> Reader<'t> {
 
     fn unary(&mut self) -> Option<Expr<'t>> {
         let start = self.start();
-        let Some(sign) = ['-', '!', '~', '&', '*'].into_iter().find(|sign| self.is_sign(&sign.to_string())) else {
+        let Some(sign) = ['-', '!', '~'].into_iter().find(|sign| self.is_sign(&sign.to_string())) else {
             return self.postfix();
         };
         self.at += 1;

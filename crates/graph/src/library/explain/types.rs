@@ -16,7 +16,6 @@ pub(super) enum Ty {
     /// Values of a place in it.
     Texture(u8),
     Sampler,
-    Pointer(Box<Ty>),
     /// What a function gives that gives nothing.
     Nothing,
 }
@@ -144,7 +143,6 @@ impl Ty {
             Ty::Parts(..) => "what `frexp` gives".into(),
             Ty::Texture(_) => "a texture".into(),
             Ty::Sampler => "a sampler".into(),
-            Ty::Pointer(_) => "a pointer".into(),
             Ty::Nothing => "nothing".into(),
         }
     }

@@ -71,10 +71,7 @@ impl<'t> World<'t> {
     }
 
     fn element(&mut self, base: &Expr<'t>, index: &Expr<'t>) -> Result<Ty, Stop> {
-        let (mut of, by) = (self.ty(base)?, self.ty(index)?);
-        if let Ty::Pointer(inner) = of {
-            of = *inner;
-        }
+        let (of, by) = (self.ty(base)?, self.ty(index)?);
         let (element, count) = match &of {
             Ty::Unknown => return Ok(Ty::Unknown),
             Ty::Vector(size, scalar) => (Ty::Scalar(*scalar), Some(i64::from(*size))),
@@ -131,7 +128,7 @@ impl<'t> World<'t> {
             Ty::Parts(first, second) if name != *first && name != *second => {
                 fail(format!("{} has `.{first}` and `.{second}`", of.name()))
             }
-            Ty::Unknown | Ty::Parts(..) | Ty::Pointer(_) => Ok(Ty::Unknown),
+            Ty::Unknown | Ty::Parts(..) => Ok(Ty::Unknown),
             Ty::Matrix(..) | Ty::Array(..) => fail(format!(
                 "{} has no `.{name}`; its elements are counted, such as `name[0]` for the first",
                 of.name()
@@ -142,21 +139,11 @@ impl<'t> World<'t> {
 
     fn unary(&mut self, sign: char, at: usize, inner: &Expr<'t>) -> Result<Ty, Stop> {
         let ty = self.ty(inner)?;
-        let Some(scalar) = ty.scalar() else {
-            return Ok(match (sign, ty) {
-                ('&', ty) if !ty.is_unknown() => Ty::Pointer(Box::new(ty)),
-                ('*', Ty::Pointer(to)) => *to,
-                _ => Ty::Unknown,
-            });
-        };
+        let Some(scalar) = ty.scalar() else { return Ok(Ty::Unknown) };
         let takes = match sign {
             '-' => scalar.is_float() || scalar == Scalar::I32,
             '!' => scalar == Scalar::Bool,
             '~' => scalar.is_whole(),
-            '&' => {
-                let told = "`&` makes a pointer, and a node works on values only; leave it out";
-                return Err(Some((at, told.into())));
-            }
             _ => return Ok(Ty::Unknown),
         };
         let cure = match (sign, scalar) {
@@ -197,34 +184,37 @@ impl<'t> World<'t> {
         }
         match joined(sign, left_ty, right_ty) {
             Some(ty) => Ok(ty),
-            None => Err(Some((at, self.told(sign, (left, left_ty), (right, right_ty))))),
+            None => {
+                let (place, told) = self.told(sign, (left, left_ty), (right, right_ty));
+                Err(Some((place.unwrap_or(at), told)))
+            }
         }
     }
 
-    /// Why an operator does not take two values, and what to write.
-    fn told(&self, sign: &str, (left, a): (&Expr<'t>, &Ty), (right, b): (&Expr<'t>, &Ty)) -> String {
+    /// Why an operator does not take two values, and what to write; with the place of the value that is to be written otherwise.
+    fn told(&self, sign: &str, (left, a): (&Expr<'t>, &Ty), (right, b): (&Expr<'t>, &Ty)) -> (Option<usize>, String) {
         let told = format!("`{sign}` takes no {} with {}", bare(a), b.name());
         let pieces = |ty: &Ty| match ty {
             Ty::Parts(first, second) => Some(format!("; take its `.{first}` or `.{second}`")),
             _ => None,
         };
         if let Some(cure) = pieces(a).or_else(|| pieces(b)) {
-            return told + &cure;
+            return (None, told + &cure);
         }
-        let (Some(p), Some(q)) = (a.scalar(), b.scalar()) else { return told };
+        let (Some(p), Some(q)) = (a.scalar(), b.scalar()) else { return (None, told) };
         let is_float = |scalar: Scalar| matches!(scalar, Scalar::F32 | Scalar::Decimal);
         if sign == "^" && (is_float(p) || is_float(q)) {
-            return told + "; a power is `pow(a, b)`";
+            return (None, told + "; a power is `pow(a, b)`");
         }
         if matches!(sign, "&" | "|") && p == Scalar::Bool && q == Scalar::Bool {
-            return told + &format!("; of conditions write `{sign}{sign}`");
+            return (None, told + &format!("; of conditions write `{sign}{sign}`"));
         }
         if matches!(sign, "<<" | ">>") && p.is_whole() && q == Scalar::I32 {
             let cure = remedy(&Ty::of(b.size(), Scalar::U32), b, self.written(&right.range));
-            return format!("`{sign}` shifts by u32, and this is {}{cure}", b.name());
+            return (Some(right.range.start), format!("`{sign}` shifts by u32, and this is {}{cure}", b.name()));
         }
         if matches!(sign, "&" | "|" | "^" | "<<" | ">>") {
-            return told + "; it works on the bits of whole numbers";
+            return (None, told + "; it works on the bits of whole numbers");
         }
         let is_comparison = matches!(sign, "==" | "!=" | "<" | ">" | "<=" | ">=");
         if p == Scalar::Bool || q == Scalar::Bool {
@@ -235,23 +225,23 @@ impl<'t> World<'t> {
             } else {
                 "; `select(0.0, 1.0, condition)` makes a number of a condition"
             };
-            return told + cure;
+            return (None, told + cure);
         }
-        let written = |side: &Expr<'t>| self.written(&side.range);
         // The whole number becomes f32, the single number a vector where the operator takes no other.
-        let cure = if p.common(q).is_none() && is_float(p) != is_float(q) {
+        let (side, wanted, ty) = if p.common(q).is_none() && is_float(p) != is_float(q) {
             let (side, ty) = if is_float(p) { (right, b) } else { (left, a) };
-            remedy(&Ty::of(ty.size(), Scalar::F32), ty, written(side))
+            (side, Ty::of(ty.size(), Scalar::F32), ty)
         } else if p.common(q).is_none() {
-            remedy(&Ty::of(b.size(), p), b, written(right))
+            (right, Ty::of(b.size(), p), b)
         } else if is_comparison && a.size() == 1 {
-            remedy(&b.clone().concrete(), a, written(left))
+            (left, b.clone().concrete(), a)
         } else if is_comparison && b.size() == 1 {
-            remedy(&a.clone().concrete(), b, written(right))
+            (right, a.clone().concrete(), b)
         } else {
-            String::new()
+            return (None, told);
         };
-        told + &cure
+        let cure = remedy(&wanted, ty, self.written(&side.range));
+        ((!cure.is_empty()).then_some(side.range.start), told + &cure)
     }
 }
 
