@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use eframe::egui::emath::Numeric;
 use eframe::egui::{self, DragValue, Id, Key, Rect, Response};
+use halfvector_graph::docs::capitalised;
 
 use crate::theme;
 
@@ -174,15 +175,9 @@ pub(crate) fn drag<N: Numeric>(
     response.flags.set(egui::response::Flags::CHANGED, is_given_up);
     if let Some(why) = writing.refused.filter(|_| !escaped) {
         let unit = kind.unit;
-        tell(ui.ctx(), response.rect, format!("{}; it stays {}{unit}.", sentence(&why), writing.before as f32));
+        tell(ui.ctx(), response.rect, format!("{}; it stays {}{unit}.", capitalised(&why), writing.before as f32));
     }
     Answer { response, is_given_up }
-}
-
-/// With a capital letter first.
-pub(crate) fn sentence(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// What is told beside a field, and until when.

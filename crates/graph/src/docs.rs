@@ -117,7 +117,7 @@ pub fn methods_markdown() -> String {
             out,
             "\n## {}\n\n{}. The report uses `{}`.\n\n| method | error | time | instructions | source |\n|---|---|---|---|---|\n",
             term.name,
-            capital(term.help),
+            capitalised(term.help),
             term.report
         );
         for method in term.methods {
@@ -134,7 +134,8 @@ pub fn methods_markdown() -> String {
     out
 }
 
-fn capital(text: &str) -> String {
+/// A text with a capital letter first.
+pub fn capitalised(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map_or(String::new(), |first| first.to_uppercase().chain(chars).collect())
 }

@@ -172,8 +172,7 @@ fn capital(text: &str) -> String {
     if text.get(1..).is_some_and(|rest| rest.starts_with('.')) {
         return text.to_owned();
     }
-    let mut chars = text.chars();
-    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+    halfvector_graph::docs::capitalised(text)
 }
 
 fn figure(comparison: &Comparison<'_>, report: &Report, page: &mut String) {

@@ -197,8 +197,7 @@ pub fn precision(rows: &[&Row]) -> String {
             })
         })
         .collect();
-    let text = said.join("; ");
-    text.chars().take(1).flat_map(char::to_uppercase).chain(text.chars().skip(1)).collect()
+    halfvector_graph::docs::capitalised(&said.join("; "))
 }
 
 /// The inputs of the domains of a comparison, without repeating what they share.

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 use halfvector_graph::check::Severity;
+use halfvector_graph::docs::capitalised;
 use halfvector_graph::method::term;
 
 use crate::accuracy::{Bench, Furnace, Job, Row, Told, What};
@@ -103,7 +104,7 @@ impl Accuracy {
                 ui.colored_label(theme::letters(theme::ERROR, ui.visuals()), why);
             }
             for fault in &self.faults {
-                ui.colored_label(theme::letters(theme::WARNING, ui.visuals()), sentence(fault));
+                ui.colored_label(theme::letters(theme::WARNING, ui.visuals()), capitalised(fault));
             }
             egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
                 ui.horizontal_top(|ui| {
@@ -259,12 +260,6 @@ impl Accuracy {
             plot(ui, &furnace.by_roughness);
         }
     }
-}
-
-/// A note as a sentence of its own.
-pub(crate) fn sentence(note: &str) -> String {
-    let mut letters = note.chars();
-    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 /// A line through points in 0..1, with 1 marked.

@@ -3,7 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use halfvector_shaders::{Item, ItemKind, Token, TokenKind};
+use halfvector_shaders::{Item, ItemKind, Token};
 
 use super::borrowed;
 use super::custom::{CodeError, MAX_WORK, error_at, integer};

@@ -1,6 +1,7 @@
 //! Values and names that are changed on a card: numbers are written, colours picked, switches turned.
 
 use eframe::egui::{self, Color32, Id, Key, Rect, ecolor::Hsva, pos2, vec2};
+use halfvector_graph::docs::capitalised;
 use halfvector_graph::document::{NodeId, SocketRef};
 use halfvector_graph::edit::Edit;
 use halfvector_graph::value::Value;
@@ -128,7 +129,7 @@ impl Canvas {
                         is_open
                     }
                     Err(why) => {
-                        written::tell(ui.ctx(), rect, format!("{}; it stays {before}.", written::sentence(&why)));
+                        written::tell(ui.ctx(), rect, format!("{}; it stays {before}.", capitalised(&why)));
                         // After Enter it can be mended; who went elsewhere has left it.
                         *is_new = ui.input(|input| input.key_pressed(Key::Enter));
                         *is_new

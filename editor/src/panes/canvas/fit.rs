@@ -1,5 +1,6 @@
 //! What goes together: whether a link can be made, and in words why not. Types are decided by the graph's own rules.
 
+use halfvector_graph::docs::capitalised;
 use halfvector_graph::document::{Link, SocketRef};
 use halfvector_graph::library::Library;
 use halfvector_graph::node_def::NodeDef;
@@ -96,8 +97,7 @@ pub(super) fn refusal(session: &Session, link: &Link) -> Option<String> {
 
 /// A reason as a sentence of its own.
 pub(super) fn sentence(message: &str) -> String {
-    let mut letters = message.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).chain(['.']).collect())
+    capitalised(message) + "."
 }
 
 /// The first input that takes a type and the first output that gives another one: a way through a node.

@@ -1,10 +1,11 @@
 //! What is written over the picture: who drew it, progress, faults, and what the selected node gives.
 
 use eframe::egui::{self, Color32};
+use halfvector_graph::docs::capitalised;
 use halfvector_graph::value::SocketType;
 
 use super::Viewport;
-use crate::panes::accuracy::sentence;
+
 use crate::session::Session;
 use crate::theme;
 use crate::thumbnails::Thumbnails;
@@ -36,7 +37,7 @@ impl Viewport {
         let noises = self.sides[..count].iter().filter_map(|side| side.shown.as_ref()?.noise.as_ref());
         let mut strange: Vec<&String> = noises.flat_map(|noise| noise.faults.iter()).collect();
         strange.dedup();
-        lines.extend(strange.into_iter().map(|fault| (sentence(fault), theme::WARNING)));
+        lines.extend(strange.into_iter().map(|fault| (capitalised(fault), theme::WARNING)));
         let place = rect.left_top() + egui::vec2(8.0, 8.0);
         let builder = egui::UiBuilder::new()
             .max_rect(egui::Rect::from_min_size(place, egui::vec2((rect.width() - 16.0).max(40.0), rect.height())));

@@ -2,6 +2,7 @@
 
 use eframe::egui::containers::menu::{MenuButton, MenuConfig, SubMenuButton, is_in_menu};
 use eframe::egui::{self, PopupCloseBehavior};
+use halfvector_graph::docs::capitalised;
 use halfvector_graph::method::{Methods, TERMS};
 use halfvector_graph::needs::ToneMap;
 use halfvector_scene::{BuiltinMesh, EnvironmentSource, MeshSource};
@@ -254,12 +255,6 @@ pub(super) fn methods_menu(ui: &mut egui::Ui, methods: &mut Methods) {
             ui.end_row();
         }
     });
-}
-
-/// The first letter as a capital.
-pub(super) fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 /// A term as people call it.

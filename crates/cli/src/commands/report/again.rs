@@ -120,7 +120,7 @@ fn measured_apart(part: &Part, effort: Effort, kept: &Kept, waiting: impl Fn()) 
             Err(error) => return Err(failed(&error)),
         }
     };
-    if status.code() == Some(INTERRUPTED) {
+    if status.code().is_some_and(|code| INTERRUPTED.contains(&code)) {
         // Whoever interrupted it interrupted this process, too, which is about to say so and end.
         std::thread::sleep(CALM);
     }

@@ -12,8 +12,10 @@ use halfvector_report::{Effort, PARTS, Part, Report, Row, SoFar, page, write};
 use crate::failure::Failure;
 use crate::output::{check_place, note, write_file};
 
-/// What a shell says of a command that an interrupt ended: 128 and the signal's number.
-pub(super) const INTERRUPTED: i32 = 130;
+/// What a shell adds to the number of the signal that ended a command.
+const ENDED_BY: i32 = 128;
+/// The exit code of a command that the interrupt key or a request to end ended.
+pub(super) const INTERRUPTED: [i32; 2] = [ENDED_BY + 2, ENDED_BY + 15];
 
 /// A report on its way.
 #[derive(Clone)]
@@ -35,7 +37,7 @@ impl Kept {
         let report = Arc::new(Mutex::new(Report::begun(effort)));
         let kept = Kept { folder: folder.to_owned(), report, other: Arc::default() };
         let told = kept.clone();
-        on_interrupt(move || {
+        on_interrupt(move |signal| {
             // Held to the end: no file is half written.
             let report = told.locked();
             let _none_starts = told.end_other();
@@ -43,7 +45,7 @@ impl Kept {
                 note(format_args!("not measured: {left}"));
             }
             note(in_words(&report, &told.folder));
-            std::process::exit(INTERRUPTED);
+            std::process::exit(ENDED_BY + signal);
         });
         kept
     }
@@ -168,13 +170,15 @@ fn in_words(report: &Report, folder: &Path) -> String {
     )
 }
 
-/// Ends the process on an interrupt, after a last word. Where the system has no such signal an interrupt ends it without a word.
-fn on_interrupt(last_word: impl FnOnce() + Send + 'static) {
+/// Ends the process on an interrupt or a request to end, after a last word. Where the system has no such signals it ends without one.
+fn on_interrupt(last_word: impl FnOnce(i32) + Send + 'static) {
     #[cfg(unix)]
-    if let Ok(mut signals) = signal_hook::iterator::Signals::new([signal_hook::consts::SIGINT]) {
+    if let Ok(mut signals) =
+        signal_hook::iterator::Signals::new([signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM])
+    {
         std::thread::spawn(move || {
-            if signals.forever().next().is_some() {
-                last_word();
+            if let Some(signal) = signals.forever().next() {
+                last_word(signal);
             }
         });
     }
