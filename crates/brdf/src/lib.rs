@@ -3,7 +3,8 @@
 //!
 //! Each function has a twin of the same file, name, argument order and unit in the WGSL library (`shaders/brdf/*.wgsl`
 //! and `shaders/math.wgsl`); a test holds them together. Sampling ([`sampling`],
-//! [`sampling_bounded`], [`lobe_sampling`]), quadrature ([`albedo`]) and slices (`batch`) have none.
+//! [`sampling_bounded`], [`lobe_sampling`]), quadrature ([`albedo`],
+//! [`thin_film_spectral`]) and slices (`batch`) have none.
 //!
 //! The crate knows no file, no GPU and no graph. With the feature `libm` in the place of `std` (default) it is `no_std`,
 //! without batches. Vectors are `[R; 3]`, colours are linear
@@ -50,6 +51,7 @@ pub mod sampling_bounded;
 pub mod sheen;
 pub mod specular_aa;
 pub mod thin_film;
+pub mod thin_film_spectral;
 pub mod vector;
 pub mod visibility;
 

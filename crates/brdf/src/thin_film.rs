@@ -79,13 +79,14 @@ pub fn f_thin_film<R: Real>(film_ior: R, thickness: R, base_eta: [R; 3], base_k:
     let ior2 = ior * ior;
     let r12 = [(c1 - q) / (c1 + q).max(floor), (ior2 * c1 - q) / (ior2 * c1 + q).max(floor)];
     let tones = tones(R::of(2.0) * thickness * q);
-    let reflectance = |channel: usize| {
+    let mut result = [R::ZERO; 3];
+    for channel in 0..3 {
         let base = amplitudes(ior2, q, c1, base_eta[channel], base_k[channel]);
-        let tones = tones.map(|order| order[channel]);
+        let tones = [tones[0][channel], tones[1][channel], tones[2][channel]];
         let both = film_series(r12[0], base[0], tones) + film_series(r12[1], base[1], tones);
-        R::choose(q2.lt(R::ZERO), R::ONE, (R::of(0.5) * both).clamp(R::ZERO, R::ONE))
-    };
-    [reflectance(0), reflectance(1), reflectance(2)]
+        result[channel] = R::choose(q2.lt(R::ZERO), R::ONE, (R::of(0.5) * both).clamp(R::ZERO, R::ONE));
+    }
+    result
 }
 
 /// [`f_thin_film`] on a dielectric base, of index `base_eta` from 1 up: all amplitudes are real there, which is a third of
@@ -96,7 +97,7 @@ pub fn f_thin_film_dielectric<R: Real>(film_ior: R, thickness: R, base_eta: [R; 
 }
 
 /// Each channel's response to exp(i m k `path`), m = 1..3: by order and channel, real and imaginary part.
-#[inline]
+#[inline(always)]
 fn tones<R: Real>(path: R) -> [[[R; 2]; 3]; 3] {
     let mut sums = [[[R::ZERO; 2]; 3]; 3];
     for (lobe, [centre, deviation]) in LOBES.into_iter().enumerate() {
@@ -117,7 +118,7 @@ fn tones<R: Real>(path: R) -> [[[R; 2]; 3]; 3] {
 
 /// Amplitudes of reflection at the base, both polarisations, complex. `q` is the film's index times the cosine in it, `c1`
 /// the cosine outside.
-#[inline]
+#[inline(always)]
 fn amplitudes<R: Real>(ior2: R, q: R, c1: R, base_eta: R, base_k: R) -> [[R; 2]; 2] {
     let n = base_eta.clamp(R::of(FILM_IOR_FLOOR), R::of(BASE_IOR_CEILING));
     let k = base_k.clamp(R::ZERO, R::of(BASE_IOR_CEILING));
@@ -141,14 +142,14 @@ fn amplitudes<R: Real>(ior2: R, q: R, c1: R, base_eta: R, base_k: R) -> [[R; 2];
 }
 
 /// Quotient of two complex numbers; 0 / 0 is 0.
-#[inline]
+#[inline(always)]
 fn quotient<R: Real>(x: [R; 2], y: [R; 2]) -> [R; 2] {
     let inverse = R::ONE / (y[0] * y[0] + y[1] * y[1]).max(R::of(FILM_FLOOR * FILM_FLOOR));
     [(x[0] * y[0] + x[1] * y[1]) * inverse, (x[1] * y[0] - x[0] * y[1]) * inverse]
 }
 
 /// Airy's sum of one polarisation seen through `tones`, see [`f_thin_film`].
-#[inline]
+#[inline(always)]
 fn film_series<R: Real>(r12: R, r23: [R; 2], tones: [[R; 2]; 3]) -> R {
     let big_r12 = r12 * r12;
     let big_r23 = r23[0] * r23[0] + r23[1] * r23[1];

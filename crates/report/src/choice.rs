@@ -67,8 +67,8 @@ impl<'a> Comparison<'a> {
             budget == Budget::Film || keeps_alone || costs_no_more(entry)
         };
         let is_alone = |entry: &Entry<'a>| !terms::is_known(self.term, &entry.row.method);
-        // The entries are in order of their errors.
-        self.entries.iter().find(|entry| is_alone(entry) && errs_less(entry) && is_worth_it(entry))
+        let is_better = |entry: &Entry<'a>| is_alone(entry) && errs_less(entry) && is_worth_it(entry);
+        self.pick(budget, &[self.cost], is_better)
     }
 
     /// The costs that are weighed among some of the methods, one after the other: the device's time and the instructions of the same
@@ -205,6 +205,14 @@ mod tests {
             let found = comparisons(&rows);
             assert!(Budget::ALL.iter().all(|&budget| found[0].recommended(budget).of_library.is_none()));
         }
+        // Of two that keep the limit, where no known one does, it is the cheaper one.
+        let metals = [of("schlick", 0.03, 0.2), of("f82_tint", 0.007, 0.3), of("conductor", 0.0, 1.7)];
+        let metals: Vec<Row> = metals.into_iter().map(|row| Row { term: "fresnel".into(), ..row }).collect();
+        let found = comparisons(&metals);
+        let desktop = found[0].recommended(Budget::Desktop).of_library;
+        assert_eq!(desktop.map(|entry| entry.row.method.as_str()), Some("f82_tint"));
+        let film = found[0].recommended(Budget::Film).of_library;
+        assert_eq!(film.map(|entry| entry.row.method.as_str()), Some("conductor"));
         let rows: Vec<Row> = rows.into_iter().map(|row| Row { term: "normal_blend".into(), ..row }).collect();
         assert!(comparisons(&rows)[0].recommended(Budget::Film).library_only);
     }

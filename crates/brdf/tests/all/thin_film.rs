@@ -1,80 +1,11 @@
-//! The thin film against integration over the spectrum with Airy's sum in closed form, and at its edges.
+//! The thin film against integration over the spectrum, and at its edges.
 
 use halfvector_brdf::coupling::{coupling_colored, coupling_compensated};
 use halfvector_brdf::fresnel::f_conductor;
 use halfvector_brdf::fresnel::f_schlick;
 use halfvector_brdf::lobe_thin_film::{ThinFilm, thin_film_cosine, thin_film_fresnel, thin_film_shift};
-use halfvector_brdf::math::PI;
 use halfvector_brdf::thin_film::f_thin_film;
-
-/// The colour matching functions of Wyman, Sloan, Shirley 2013 at a wavelength in nm.
-fn observer(wavelength: f64) -> [f64; 3] {
-    let lobe = |height: f64, centre: f64, below: f64, above: f64| {
-        let width = if wavelength < centre { below } else { above };
-        height * (-0.5 * ((wavelength - centre) / width).powi(2)).exp()
-    };
-    [
-        lobe(1.056, 599.8, 37.9, 31.0) + lobe(0.362, 442.0, 16.0, 26.7) - lobe(0.065, 501.1, 20.4, 26.2),
-        lobe(0.821, 568.8, 46.9, 40.5) + lobe(0.286, 530.9, 16.3, 31.1),
-        lobe(1.217, 437.0, 11.8, 36.0) + lobe(0.681, 459.0, 26.0, 13.8),
-    ]
-}
-
-type Complex = (f64, f64);
-
-fn mul(a: Complex, b: Complex) -> Complex {
-    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
-}
-
-fn div(a: Complex, b: Complex) -> Complex {
-    let size = b.0 * b.0 + b.1 * b.1;
-    ((a.0 * b.0 + a.1 * b.1) / size, (a.1 * b.0 - a.0 * b.1) / size)
-}
-
-/// Reflectance at one wavelength: the amplitude (r12 + r23 e) / (1 + r12 r23 e), squared, both polarisations.
-fn airy(ior: f64, thickness: f64, (n, k): (f64, f64), cosine: f64, wavelength: f64) -> f64 {
-    let sin2 = 1.0 - cosine * cosine;
-    let q = (ior * ior - sin2).sqrt();
-    let n2 = (n * n - k * k, 2.0 * n * k);
-    let (re, im) = (n2.0 - sin2, n2.1);
-    let size = re.hypot(im);
-    let u = ((0.5 * (size + re)).max(0.0).sqrt(), (0.5 * (size - re)).max(0.0).sqrt());
-    let (sin, cos) = (4.0 * PI / wavelength * thickness * q).sin_cos();
-    let s = ((cosine - q) / (cosine + q), div((q - u.0, -u.1), (q + u.0, u.1)));
-    let i2 = ior * ior;
-    let p = (
-        (i2 * cosine - q) / (i2 * cosine + q),
-        div((n2.0 * q - i2 * u.0, n2.1 * q - i2 * u.1), (n2.0 * q + i2 * u.0, n2.1 * q + i2 * u.1)),
-    );
-    let both = [s, p].map(|(r12, r23)| {
-        let echo = mul(r23, (cos, sin));
-        let amplitude = div((r12 + echo.0, echo.1), (1.0 + r12 * echo.0, r12 * echo.1));
-        amplitude.0 * amplitude.0 + amplitude.1 * amplitude.1
-    });
-    0.5 * (both[0] + both[1])
-}
-
-/// The reflectance as linear Rec. 709 on a white of D65, held in [0, 1].
-fn integrated(ior: f64, thickness: f64, base: (f64, f64), cosine: f64) -> [f64; 3] {
-    let (mut sum, mut white) = ([0.0; 3], [0.0; 3]);
-    for wavelength in 360..830 {
-        let wavelength = f64::from(wavelength);
-        let reflectance = airy(ior, thickness, base, cosine, wavelength);
-        let weights = observer(wavelength);
-        for i in 0..3 {
-            sum[i] += weights[i] * reflectance;
-            white[i] += weights[i];
-        }
-    }
-    let xyz = [0.950_47, 1.0, 1.088_83].map(f64::from);
-    let [x, y, z] = [0, 1, 2].map(|i| xyz[i] * sum[i] / white[i]);
-    [
-        3.240_454_2 * x - 1.537_138_5 * y - 0.498_531_4 * z,
-        -0.969_266_0 * x + 1.876_010_8 * y + 0.041_556_0 * z,
-        0.055_643_4 * x - 0.204_025_9 * y + 1.057_225_2 * z,
-    ]
-    .map(|c| c.clamp(0.0, 1.0))
-}
+use halfvector_brdf::thin_film_spectral::f_thin_film_spectral;
 
 #[test]
 fn thin_films_are_near_the_spectrum_s() {
@@ -87,7 +18,7 @@ fn thin_films_are_near_the_spectrum_s() {
             for ior in [1.2, 1.33, 1.8, 2.4] {
                 for (step, cosine) in (0..60).flat_map(|step| cosines.map(|c| (step, c))) {
                     let thickness = 40.0 + 20.0 * f64::from(step);
-                    let truth = integrated(ior, thickness, base, cosine);
+                    let truth = f_thin_film_spectral(ior, thickness, base.0, base.1, cosine);
                     let ours = f_thin_film(ior, thickness, [base.0; 3], [base.1; 3], cosine);
                     for error in ours.iter().zip(truth).map(|(a, b)| (a - b).abs()) {
                         if error > worst {
@@ -100,6 +31,19 @@ fn thin_films_are_near_the_spectrum_s() {
             assert!(worst < bound, "{name}: {worst} at {at:?}");
         }
     }
+}
+
+/// Nothing that a caller may ask for gives anything but a reflectance.
+#[test]
+fn the_spectral_sum_takes_any_number() {
+    let odd = [f64::NAN, f64::NEG_INFINITY, -1.0, 0.0, 1e-300, 0.5, 1.0, 1e300, f64::INFINITY];
+    for (ior, thickness) in odd.into_iter().flat_map(|a| odd.map(|b| (a, b))) {
+        for (eta, k) in odd.into_iter().flat_map(|a| odd.map(|b| (a, b))) {
+            let found = f_thin_film_spectral(ior, thickness, eta, k, 0.3);
+            assert!(found.iter().all(|c| (0.0..=1.0).contains(c)), "{ior} {thickness} {eta} {k}: {found:?}");
+        }
+    }
+    assert!(odd.iter().all(|&c| f_thin_film_spectral(1.3, 400.0, 1.5, 0.0, c).iter().all(|c| (0.0..=1.0).contains(c))));
 }
 
 #[test]

@@ -7,6 +7,7 @@ use crate::search::CHEAP;
 use crate::timing::{Candidate, SITTINGS, measured};
 use crate::{Effort, Row, Run};
 use halfvector_brdf::Real;
+use halfvector_brdf::albedo::directional_albedo_charlie;
 use halfvector_brdf::anisotropic::{d_ggx_anisotropic, v_smith_ggx_anisotropic};
 use halfvector_brdf::batch::kernels::SpecularEval;
 use halfvector_brdf::batch::{Kernel, Simd};
@@ -24,13 +25,14 @@ use halfvector_brdf::lobe_specular::{Specular, specular_eval};
 use halfvector_brdf::multiscatter::{energy_compensation, energy_compensation_fdez_aguera, multiscatter_color};
 use halfvector_brdf::sheen::{d_charlie, v_neubelt};
 use halfvector_brdf::thin_film::f_thin_film;
+use halfvector_brdf::thin_film_spectral::f_thin_film_spectral;
 use halfvector_brdf::visibility::{v_cook_torrance, v_hammon, v_kelemen, v_schlick_smith};
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 
-/// A film of oil: index, thickness in nanometres; on glass.
-const FILM: [f64; 3] = [1.4, 450.0, 1.5];
+/// Index and extinction of what the films are on: glass, silver, iron, about those at 550 nm. Polyanskiy 2024, refractiveindex.info.
+const UNDER_FILMS: [(f64, f64); 3] = [(1.5, 0.0), (0.2, 3.9), (2.9, 3.1)];
 
 /// A metal's reflectance.
 const F0: [f64; 3] = [0.9, 0.6, 0.3];
@@ -107,11 +109,13 @@ struct Against<'a, const N: usize> {
     truth: Option<&'a (dyn Fn([f64; N]) -> f64 + Sync)>,
     /// The error is relative to the truth, or to this where the truth is less.
     floor: f64,
+    /// One in so many places is looked at: more than one where the truth takes long.
+    one_in: usize,
 }
 
 impl<const N: usize> Against<'_, N> {
     fn itself(floor: f64) -> Self {
-        Against { name: "the same form in f64", truth: None, floor }
+        Against { name: "the same form in f64", truth: None, floor, one_in: 1 }
     }
 
     /// What errors are, in words. No reflectance is more than 1, so that the greater of it and 1 is 1.
@@ -171,7 +175,9 @@ impl<const N: usize> Group<N> {
             let truth = against.truth.map_or_else(|| (form.exact)(wide), |truth| truth(wide));
             ((f64::from((form.single)(x)) - truth) / truth.abs().max(against.floor)).abs()
         };
-        CHEAP.errors(places.iter().copied(), error, |place| named(self.names, &(self.point)(place)))
+        CHEAP.errors(places.iter().copied().step_by(against.one_in), error, |place| {
+            named(self.names, &(self.point)(place))
+        })
     }
 }
 
@@ -229,7 +235,7 @@ fn d(effort: Effort) -> Vec<Row> {
         ],
     };
     let ggx = |[n_dot_h, sin2, alpha]: [f64; 3]| d_ggx(n_dot_h, sin2, alpha);
-    let against = Against { name: "GGX in f64", truth: Some(&ggx), floor: 1e-6 };
+    let against = Against { name: "GGX in f64", truth: Some(&ggx), floor: 1e-6, one_in: 1 };
     group.rows(effort, &[Against::itself(1e-6), against])
 }
 
@@ -248,7 +254,11 @@ fn sheen(effort: Effort) -> Vec<Row> {
         point: Box::new(half_angles),
         forms: vec![form!(3, "charlie", [n_dot_w, _, alpha] => sheen_albedo(n_dot_w, alpha.sqrt()))],
     };
-    [d, albedo].iter().flat_map(|group| group.rows(effort, &[Against::itself(1e-2)])).collect()
+    let integral = |[n_dot_w, _, alpha]: [f64; 3]| directional_albedo_charlie(n_dot_w, alpha.sqrt());
+    let fit = Against { name: "its integral", truth: Some(&integral), floor: 2e-2, one_in: 8 };
+    let mut rows = d.rows(effort, &[Against::itself(1e-2)]);
+    rows.extend(albedo.rows(effort, &[Against::itself(1e-2), fit]));
+    rows
 }
 
 /// The whole specular lobe: as one point is shaded, and as batches compute it.
@@ -300,7 +310,7 @@ fn v(effort: Effort) -> Vec<Row> {
     };
     let smith = |[v, l, h, alpha]: [f64; 4]| v_smith_ggx_correlated(v, l, h, alpha);
     let name = "Smith's height-correlated form for GGX in f64";
-    group.rows(effort, &[Against::itself(0.0), Against { name, truth: Some(&smith), floor: 0.0 }])
+    group.rows(effort, &[Against::itself(0.0), Against { name, truth: Some(&smith), floor: 0.0, one_in: 1 }])
 }
 
 fn v_beckmann(effort: Effort) -> Vec<Row> {
@@ -317,7 +327,7 @@ fn v_beckmann(effort: Effort) -> Vec<Row> {
     };
     let smith = |[v, l, h, alpha]: [f64; 4]| v_smith_beckmann_exact(v, l, h, alpha);
     let name = "Smith's height-correlated form for Beckmann in f64";
-    group.rows(effort, &[Against { name, truth: Some(&smith), floor: 0.0 }])
+    group.rows(effort, &[Against { name, truth: Some(&smith), floor: 0.0, one_in: 1 }])
 }
 
 fn v_anisotropic(effort: Effort) -> Vec<Row> {
@@ -357,7 +367,7 @@ fn dielectric(effort: Effort) -> Vec<Row> {
         };
         let truth = |[c, ..]: [f64; 3]| f_dielectric(ior, c);
         let name = "Fresnel's equations in f64";
-        group.rows(effort, &[Against::itself(0.02), Against { name, truth: Some(&truth), floor: 1.0 }])
+        group.rows(effort, &[Against::itself(0.02), Against { name, truth: Some(&truth), floor: 1.0, one_in: 1 }])
     };
     IORS.into_iter().flat_map(of).collect()
 }
@@ -383,7 +393,7 @@ fn conductor(effort: Effort) -> Vec<Row> {
         };
         let truth = |[c, ..]: [f64; 5]| f_conductor(eta, k, c);
         let name = "Fresnel's equations in f64";
-        group.rows(effort, &[Against::itself(0.02), Against { name, truth: Some(&truth), floor: 1.0 }])
+        group.rows(effort, &[Against::itself(0.02), Against { name, truth: Some(&truth), floor: 1.0, one_in: 1 }])
     };
     METALS.into_iter().flat_map(of).collect()
 }
@@ -397,15 +407,24 @@ fn tint_at_82_degrees(eta: f64, k: f64, f0: f64) -> f64 {
 fn thin_film(effort: Effort) -> Vec<Row> {
     let group = Group {
         term: "fresnel",
-        points_are: "film of index 1.4 and 450 nm on glass, l.h evenly in 0..1, red".into(),
-        names: &[("l.h", 1)],
-        point: Box::new(|[c, ..]| [c as f32]),
-        forms: vec![form!(1, "thin_film", [c] => {
-            let [film, thickness, base] = FILM.map(R::of);
-            f_thin_film(film, thickness, [base; 3], [R::ZERO; 3], c)[0]
+        points_are: "films of index 1.2..2.4 and 40..1240 nm on glass, silver and iron, l.h evenly in 0.1..1".into(),
+        names: &[("film's index", 1), ("thickness", 1), ("base's index", 2), ("l.h", 1), ("channel", 1)],
+        point: Box::new(|[c, thickness, index, base, channel]| {
+            let below = |x: f64, count: usize| ((x * count as f64) as usize).min(count - 1);
+            let (eta, k) = UNDER_FILMS[below(base, UNDER_FILMS.len())];
+            [1.2 + 1.2 * index, 40.0 + 1200.0 * thickness, eta, k, 0.1 + 0.9 * c, below(channel, 3) as f64]
+                .map(|x| x as f32)
+        }),
+        forms: vec![form!(6, "thin_film", [film, thickness, eta, k, c, channel] => {
+            let [red, green, blue] = f_thin_film(film, thickness, [eta; 3], [k; 3], c);
+            R::choose(channel.lt(R::of(0.5)), red, R::choose(channel.lt(R::of(1.5)), green, blue))
         })],
     };
-    group.rows(effort, &[Against::itself(0.02)])
+    let spectral = |[film, thickness, eta, k, c, channel]: [f64; 6]| {
+        f_thin_film_spectral(film, thickness, eta, k, c)[channel as usize]
+    };
+    let against = Against { name: "the integral over the spectrum", truth: Some(&spectral), floor: 1.0, one_in: 4 };
+    group.rows(effort, &[Against::itself(0.02), against])
 }
 
 fn diffuse(effort: Effort) -> Vec<Row> {
@@ -426,7 +445,7 @@ fn diffuse(effort: Effort) -> Vec<Row> {
     let truth = |[v, l, h, r]: [f64; 4]| diffuse_eon_exact([0.8; 3], v, l, h, r)[0];
     let name = "EON with exact albedos in f64";
     // Where next to nothing is reflected an error of many times that is nothing: a tenth of what Lambert reflects.
-    group.rows(effort, &[Against::itself(0.0), Against { name, truth: Some(&truth), floor: 0.025 }])
+    group.rows(effort, &[Against::itself(0.0), Against { name, truth: Some(&truth), floor: 0.025, one_in: 1 }])
 }
 
 fn compensation(effort: Effort) -> Vec<Row> {
