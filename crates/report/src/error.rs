@@ -84,6 +84,23 @@ pub(crate) fn named<T: Debug>(names: &[(&str, usize)], numbers: &[T]) -> String 
     said.collect::<Vec<_>>().join(", ")
 }
 
+/// The names and numbers of an input that a row says: `tilt = 75 deg, normal = [0, 0, 1]`. Units are left out; none where a value is no number.
+#[cfg(test)]
+pub(crate) fn inputs(at: &str) -> Vec<(String, Vec<f64>)> {
+    let mut depth = 0;
+    let outside = |c: char| {
+        depth += i32::from(c == '[') - i32::from(c == ']');
+        c == ',' && depth == 0
+    };
+    let value = |text: &str| -> Option<Vec<f64>> {
+        let numbers = text.strip_prefix('[').and_then(|text| text.strip_suffix(']'));
+        let number = |text: &str| text.split_whitespace().next()?.parse().ok();
+        numbers.map_or_else(|| Some(vec![number(text)?]), |all| all.split(',').map(number).collect())
+    };
+    let parts = at.split(outside).filter_map(|part| part.split_once(" = "));
+    parts.map(|(name, text)| (name.trim().to_owned(), value(text).unwrap_or_default())).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

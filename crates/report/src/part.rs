@@ -11,6 +11,7 @@ pub mod lobes;
 pub mod maps;
 pub mod mips;
 mod multiple;
+mod nearly;
 pub mod peers;
 pub mod pictures;
 pub mod precision;

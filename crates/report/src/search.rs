@@ -15,6 +15,9 @@ const ROUNDS: usize = 14;
 /// Each round draws from a box so much smaller than the one before.
 const NARROWER: f64 = 0.65;
 
+/// So many of the worst that were found are searched around once more, from a box so much smaller than the first.
+const ONCE_MORE: (usize, f64) = (3, 0.1);
+
 /// A place in the unit cube, and the error there.
 pub(crate) type Place<const N: usize> = ([f64; N], f64);
 
@@ -28,7 +31,21 @@ pub(crate) struct Search {
 }
 
 /// Where an error costs next to nothing.
-pub(crate) const CHEAP: Search = Search { starts: 12, rounds: ROUNDS };
+pub(crate) const CHEAP: Search = Search { starts: 20, rounds: ROUNDS };
+
+/// The k-th of places that fill the unit cube evenly, however many of them are taken. Roberts 2018, "The Unreasonable Effectiveness of
+/// Quasirandom Sequences".
+pub(crate) fn place<const N: usize>(k: usize) -> [f64; N] {
+    // g^(N + 1) = g + 1.
+    let g = (0..32).fold(1.5_f64, |g, _| (1.0 + g).powf(1.0 / (N as f64 + 1.0)));
+    std::array::from_fn(|i| (0.5 + k as f64 * g.powi(-1 - i as i32)).fract())
+}
+
+/// The corners of the unit cube, the middles of its edges and faces, and its own: what is drawn comes near them and does not meet
+/// them, and errors are often largest there.
+pub(crate) fn corners<const N: usize>() -> impl Iterator<Item = [f64; N]> {
+    (0..3_usize.pow(N as u32)).map(|k| std::array::from_fn(|i| 0.5 * (k / 3_usize.pow(i as u32) % 3) as f64))
+}
 
 impl Search {
     /// Errors at some places, and the largest that a search from there finds; `at` describes a place.
@@ -55,8 +72,8 @@ impl Search {
         errors
     }
 
-    /// From the worst of some drawn places the worst near each, the largest first. Errors are not negative; what is no number
-    /// counts as infinite.
+    /// From the worst of some drawn places, and of the [`corners`], the worst near each, the largest first. Errors are not negative;
+    /// what is no number counts as infinite.
     pub(crate) fn worst<const N: usize>(
         self,
         drawn: impl IntoIterator<Item = Place<N>>,
@@ -65,26 +82,35 @@ impl Search {
         let mut drawn: Vec<Place<N>> = drawn.into_iter().collect();
         // As far as the drawn places are apart.
         let apart = (drawn.len().max(1) as f64).powf(-1.0 / N as f64);
-        drawn.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let mut starts: Vec<Place<N>> = Vec::new();
-        for place in drawn {
-            let is_near = |other: &Place<N>| (0..N).all(|i| (other.0[i] - place.0[i]).abs() < 1.5 * apart);
-            if starts.len() < self.starts && !starts.iter().any(is_near) {
-                starts.push(place);
-            }
+        drawn.extend(corners().map(|place| (place, number(error(place)))));
+        let mut found = self.from(drawn, apart, &error);
+        let ((again, smaller), mut random) = (ONCE_MORE, Random(2));
+        for place in found.iter_mut().take(again) {
+            *place = self.around(*place, smaller * apart, &error, &mut random);
         }
-        self.from(starts, apart, error)
+        found.sort_by(|a, b| b.1.total_cmp(&a.1));
+        found
     }
 
-    /// The worst near each of the worst of some places, the largest first; it is drawn so far around them at first.
+    /// The worst near each of the worst of some places, no two of them near each other, the largest first; it is drawn so far around them
+    /// at first.
     pub(crate) fn from<const N: usize>(
         self,
-        mut starts: Vec<Place<N>>,
+        mut places: Vec<Place<N>>,
         reach: f64,
         error: impl Fn([f64; N]) -> f64,
     ) -> Vec<Place<N>> {
-        starts.sort_by(|a, b| b.1.total_cmp(&a.1));
-        starts.truncate(self.starts);
+        places.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let mut starts: Vec<Place<N>> = Vec::new();
+        for place in places {
+            if starts.len() == self.starts {
+                break;
+            }
+            let is_near = |other: &Place<N>| (0..N).all(|i| (other.0[i] - place.0[i]).abs() < 1.5 * reach);
+            if !starts.iter().any(is_near) {
+                starts.push(place);
+            }
+        }
         let mut random = Random(1);
         let mut found: Vec<Place<N>> =
             starts.into_iter().map(|start| self.around(start, reach, &error, &mut random)).collect();
@@ -102,8 +128,7 @@ impl Search {
         for _ in 0..self.rounds {
             for _ in 0..TRIES * N {
                 let place: [f64; N] = std::array::from_fn(|i| (best.0[i] + reach * random.next()).clamp(0.0, 1.0));
-                let found = error(place);
-                let found = if found.is_nan() { f64::INFINITY } else { found };
+                let found = number(error(place));
                 if found > best.1 {
                     best = (place, found);
                 }
@@ -112,6 +137,11 @@ impl Search {
         }
         best
     }
+}
+
+/// What is no number counts as infinite.
+fn number(error: f64) -> f64 {
+    if error.is_nan() { f64::INFINITY } else { error }
 }
 
 /// Numbers in -1..1 that come out the same on every run.
@@ -128,6 +158,19 @@ impl Random {
 mod tests {
     use super::*;
 
+    /// Each eighth of the cube has its share of the places, and of a part of them.
+    #[test]
+    fn places_are_even() {
+        for count in [64, 1000] {
+            let mut shares = [0_usize; 8];
+            for [x, y, z] in (0..count).map(place) {
+                shares[4 * usize::from(x < 0.5) + 2 * usize::from(y < 0.5) + usize::from(z < 0.5)] += 1;
+            }
+            assert!(shares.iter().all(|&share| share.abs_diff(count / 8) <= count / 32), "{shares:?}");
+        }
+        assert_eq!((corners::<2>().count(), corners::<3>().last()), (9, Some([1.0; 3])));
+    }
+
     /// A peak between the drawn places is found, and one on the edge of the domain, too.
     #[test]
     fn peaks_between_drawn_places_are_found() {
@@ -139,7 +182,10 @@ mod tests {
             assert!(found[0].1 > 0.999 * most, "{found:?}");
             assert!(found.windows(2).all(|pair| pair[0].1 >= pair[1].1));
         }
-        assert!(CHEAP.worst(std::iter::empty::<Place<2>>(), |_| 1.0).is_empty());
+        // A peak so narrow that no drawn place is near it, in a corner.
+        let corner = |[x, y, z]: [f64; 3]| x + 9.0 * f64::from(u8::from(x > 0.999 && y < 1e-3 && z > 0.999));
+        let drawn = (0..1000).map(place).map(|place| (place, corner(place)));
+        assert!(CHEAP.worst(drawn, corner)[0].1 > 9.9);
         assert_eq!(CHEAP.worst([([0.5], 1.0)], |_| f64::NAN)[0].1, f64::INFINITY);
     }
 }

@@ -118,7 +118,7 @@ fn truth(count: usize) -> Vec<Point> {
 type Point = (f64, f64, [f64; 2]);
 
 /// How much is searched for a largest error.
-const SEARCH: Search = Search { starts: 4, rounds: 8 };
+const SEARCH: Search = Search { starts: 8, rounds: 9 };
 
 fn measured(
     name: &str,

@@ -81,7 +81,7 @@ const FRAMES: [&str; 5] =
 const TILTS: [f64; 3] = [10.0, 30.0, 60.0];
 
 /// How much is searched for the largest error of a frame.
-const SEARCH: Search = Search { starts: 6, rounds: 10 };
+const SEARCH: Search = Search { starts: 10, rounds: 10 };
 
 /// One row for each frame on each shape and tilt.
 pub(super) fn rows(effort: Effort) -> Vec<Row> {

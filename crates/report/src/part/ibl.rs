@@ -1,9 +1,10 @@
 //! Light of environments: levels, what is seen between them, diffuse light, the split sum's own error; on the two environments of our own, against
 //! sums over every texel.
 
+use super::nearly::Nearly;
 use super::{levels, split_sum};
 use crate::error::Errors;
-use crate::search::Search;
+use crate::search::{self, Search};
 use crate::timing::{Candidate, measured};
 use crate::{Effort, Row, Run};
 use halfvector_ibl::environment::{
@@ -36,7 +37,7 @@ fn under(run: &Run<'_>, first: f64, name: &str, environment: &LoadedEnvironment,
     let effort = run.effort();
     let Source::Equirect(map) = &environment.source else { return };
     let truth = Truth::new(map);
-    let own = levels::rows(run, first, name, environment, &truth.exact, rows);
+    let own = levels::rows(run, first, name, environment, &truth, rows);
     rows.extend(own);
     run.keep(rows, first + 0.35);
     // The largest bakes are made once for all that read them.
@@ -67,73 +68,71 @@ pub(super) fn largest(errors: [f64; 3]) -> f64 {
     errors.into_iter().fold(0.0, |most, error| error.abs().max(most))
 }
 
-/// What is true of an environment: by every texel, and by few of them, which is quick and says about where an error is large.
-struct Truth {
-    exact: Quadrature,
-    near: Quadrature,
+/// What is true of an environment: by every texel, and nearly, which is quick and says where an error is large.
+pub(super) struct Truth {
+    pub(super) exact: Quadrature,
+    pub(super) near: Nearly,
 }
 
-/// Rows of the map of which [`Truth::near`] is.
-const NEAR_ROWS: usize = 96;
+/// Places, and the light that is expected there.
+type Known<const N: usize> = Vec<([f64; N], [f64; 3])>;
 
 /// How much is searched for a largest error by what is nearly true.
-const SEARCH: Search = Search { starts: 8, rounds: 6 };
+const SEARCH: Search = Search { starts: 16, rounds: 7 };
 
-/// How much the search goes on by what is true, where texels that are left together hide how large an error is: a narrow lobe sees what
-/// is next to an edge, and they do not.
-const SHARP: Search = Search { starts: 2, rounds: 8 };
-
-/// For light so wide that the search by what is nearly true ends at the right place.
-const WIDE: Search = Search { starts: SEARCH.starts, rounds: 0 };
+/// How much the search goes on by what is true.
+const FURTHER: Search = Search { starts: 3, rounds: 6 };
 
 /// How far the search by what is true begins to draw around a start, in edges of the unit cube.
-const REACH: f64 = 0.03;
+const REACH: f64 = 0.015;
+
+/// Edges of light that are looked at.
+const EDGES: usize = 24;
 
 impl Truth {
-    fn new(map: &Equirect) -> Truth {
-        let near = map.area_resampled(2 * NEAR_ROWS, NEAR_ROWS);
-        Truth { exact: Quadrature::new(map), near: Quadrature::new(&near) }
+    pub(super) fn new(map: &Equirect) -> Truth {
+        Truth { exact: Quadrature::new(map), near: Nearly::new(map) }
     }
 
-    /// Prefiltered light in the direction and for the roughness of each place, nearly.
-    fn nearly<const N: usize>(
-        &self,
-        count: usize,
-        asked: impl Fn([f64; N]) -> ([f64; 3], f64) + Sync,
-    ) -> Vec<([f64; N], [f64; 3])> {
-        // Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
-        const STEPS: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3];
-        let place = |k: usize| std::array::from_fn(|i| (0.5 + STEPS[i % 3] * k as f64).fract());
-        let at = |k: usize| {
-            let (dir, roughness) = asked(place(k));
-            (place(k), self.near.prefiltered(dir, roughness))
-        };
-        (0..count).into_par_iter().map(at).collect()
+    /// The light at some places, by what is true or nearly.
+    fn known<const N: usize>(
+        places: impl IntoParallelIterator<Item = [f64; N]>,
+        light: impl Fn([f64; N]) -> [f64; 3] + Sync + Send,
+    ) -> Known<N> {
+        places.into_par_iter().map(|place| (place, light(place))).collect()
     }
 
-    /// Looks for a larger error than is known, from places where the light is nearly known: where it is large beside what is nearly
-    /// true it is held against what is true, and from the worst of these places the search goes on by that.
+    /// Directions where errors are often the largest, as places of the unit square: of cubes the corners and the middles of edges and
+    /// faces, of light where it changes most and where it comes from.
+    fn remarkable(&self) -> Vec<[f64; 2]> {
+        let cube = search::corners::<3>().map(|place| place.map(|x| 2.0 * x - 1.0)).filter(|dir| *dir != [0.0; 3]);
+        let all = cube.map(unit).chain(self.near.edges(EDGES)).chain([self.near.brightest()]);
+        all.map(place_of).collect()
+    }
+
+    /// Looks for a larger error than is known, from places where the light is `near`ly known: the largest beside what is nearly true
+    /// are held against what is true, and from the worst of these and of the places where it is known by that the search goes on.
     fn search<const N: usize>(
         &self,
         errors: &mut Errors,
-        further: Search,
-        known: &[([f64; N], [f64; 3])],
+        [near, known]: [&Known<N>; 2],
         asked: impl Fn([f64; N]) -> ([f64; 3], f64),
         read: impl Fn(([f64; 3], f64)) -> [f32; 3],
         at: impl Fn([f64; N]) -> String,
     ) {
-        let mean = self.exact.mean();
-        let drawn = known.iter().map(|&(place, light)| (place, largest(off(read(asked(place)), light, mean))));
-        let near = |place: [f64; N]| {
+        let against = |place: [f64; N], light: [f64; 3]| largest(off(read(asked(place)), light, self.exact.mean()));
+        let about = |place: [f64; N]| {
             let (dir, roughness) = asked(place);
-            largest(off(read((dir, roughness)), self.near.prefiltered(dir, roughness), mean))
+            against(place, self.near.prefiltered(dir, roughness))
         };
         let exact = |place: [f64; N]| {
             let (dir, roughness) = asked(place);
-            largest(off(read((dir, roughness)), self.exact.prefiltered(dir, roughness), mean))
+            against(place, self.exact.prefiltered(dir, roughness))
         };
-        let starts = SEARCH.worst(drawn, near).into_iter().map(|(place, _)| (place, exact(place))).collect();
-        for (place, found) in further.from(starts, REACH, exact) {
+        let worst = SEARCH.worst(near.iter().map(|&(place, light)| (place, against(place, light))), about);
+        let mut starts: Vec<_> = worst.into_iter().map(|(place, _)| (place, exact(place))).collect();
+        starts.extend(known.iter().map(|&(place, light)| (place, against(place, light))));
+        for (place, found) in FURTHER.from(starts, REACH, exact) {
             errors.search(found, || at(place));
         }
     }
@@ -150,10 +149,15 @@ pub(super) fn direction(k: usize) -> [f64; 3] {
 }
 
 /// The direction at a place of the unit square, of which equal parts are equal parts of the sphere.
-fn direction_at([a, b]: [f64; 2]) -> [f64; 3] {
+pub(super) fn direction_at([a, b]: [f64; 2]) -> [f64; 3] {
     let (y, (sin, cos)) = (2.0 * a - 1.0, (b * std::f64::consts::TAU).sin_cos());
     let across = (1.0 - y * y).max(0.0).sqrt();
     [across * cos, y, across * sin]
+}
+
+/// The place of a direction in the unit square.
+fn place_of([x, y, z]: [f64; 3]) -> [f64; 2] {
+    [0.5 * (y + 1.0), (z.atan2(x) / std::f64::consts::TAU).rem_euclid(1.0)]
 }
 
 /// Any direction and roughness from 0.1 to 1, read as a shader reads it: one row per mapping of roughness to levels.
@@ -164,11 +168,24 @@ fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 2], truth: &Truth)
     );
     // A direction and a roughness at a place of the unit cube.
     let asked = |[a, b, r]: [f64; 3]| (direction_at([a, b]), 0.1 + 0.9 * r);
-    let points: Vec<([f64; 3], f64)> = (0..effort.pick(60, 1000))
-        .map(|k| (direction(k), 0.1 + 0.9 * (0.5 + 0.549_700_478 * k as f64).fract()))
-        .collect();
-    let expected: Vec<_> = points.par_iter().map(|&(dir, roughness)| truth.exact.prefiltered(dir, roughness)).collect();
-    let known = truth.nearly(effort.pick(2000, 6000), asked);
+    let light = |place: [f64; 3]| {
+        let (dir, roughness) = asked(place);
+        truth.exact.prefiltered(dir, roughness)
+    };
+    let drawn = Truth::known((0..effort.pick(300, 1500)).into_par_iter().map(search::place), light);
+    let points: Vec<([f64; 3], f64)> = drawn.iter().map(|&(place, _)| asked(place)).collect();
+    // Narrow lobes show most of what is between levels and texels.
+    let remarkable = |roughness: &[f64]| -> Vec<[f64; 3]> {
+        let at = |[a, b]: [f64; 2]| roughness.iter().map(move |&r| [a, b, r]);
+        truth.remarkable().into_iter().flat_map(at).collect()
+    };
+    let mut known = Truth::known(remarkable(&[0.0]), light);
+    known.extend(&drawn);
+    let near = (0..effort.pick(6000, 12_000)).map(search::place).chain(remarkable(&[0.05, 0.13, 0.25, 0.5, 0.9]));
+    let near = Truth::known(near.collect::<Vec<_>>(), |place| {
+        let (dir, roughness) = asked(place);
+        truth.near.prefiltered(dir, roughness)
+    });
     let [geometric, linear] = maps;
     let count = |baked: &BakedEnvironment| baked.radiance.len() as f64;
     type Read<'a> = (&'a str, &'a BakedEnvironment, &'a (dyn Fn([f64; 3], f64) -> [f32; 3] + Sync));
@@ -198,14 +215,13 @@ fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 2], truth: &Truth)
         .zip(times)
         .map(|((method, baked, read), time)| {
             let mut errors = Errors::default();
-            for (&(dir, roughness), &expected) in points.iter().zip(&expected) {
+            for (&(dir, roughness), &(_, expected)) in points.iter().zip(&drawn) {
                 let at = || format!("roughness = {roughness:?}, direction = {dir:?}");
                 add(&mut errors, read(dir, roughness), expected, truth.exact.mean(), at);
             }
             truth.search(
                 &mut errors,
-                SHARP,
-                &known,
+                [&near, &known],
                 asked,
                 |(dir, roughness)| read(dir, roughness),
                 |place| {
@@ -229,10 +245,14 @@ fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 2], truth: &Truth)
 /// level. A third degree adds nothing: the cosine lobe has none (Ramamoorthi and Hanrahan 2001).
 fn diffuse(effort: Effort, name: &str, maps: &[BakedEnvironment; 2], truth: &Truth) -> Vec<Row> {
     let domain = format!("{name}: irradiance over pi at any direction; relative error against a sum over texels");
-    let points: Vec<[f64; 3]> = (0..effort.pick(60, 1000)).map(direction).collect();
-    let expected: Vec<_> = points.par_iter().map(|&dir| truth.exact.prefiltered(dir, 1.0)).collect();
     let asked = |place: [f64; 2]| (direction_at(place), 1.0);
-    let known = truth.nearly(effort.pick(300, 2000), asked);
+    let light = |place: [f64; 2]| truth.exact.prefiltered(direction_at(place), 1.0);
+    let drawn = Truth::known((0..effort.pick(300, 1500)).into_par_iter().map(search::place), light);
+    let points: Vec<[f64; 3]> = drawn.iter().map(|&(place, _)| direction_at(place)).collect();
+    let mut known = Truth::known(truth.remarkable(), light);
+    known.extend(&drawn);
+    let near = (0..effort.pick(1000, 4000)).into_par_iter().map(search::place);
+    let near = Truth::known(near, |place| truth.near.prefiltered(direction_at(place), 1.0));
     let [baked, report] = maps;
     let harmonics = |coefficients: [[f32; 4]; 9], dir: [f64; 3]| irradiance_sh2(coefficients, dir.map(|x| x as f32));
     let plain = baked.irradiance_sh_padded();
@@ -256,11 +276,11 @@ fn diffuse(effort: Effort, name: &str, maps: &[BakedEnvironment; 2], truth: &Tru
         .zip(times)
         .map(|((method, bytes, read), time)| {
             let mut errors = Errors::default();
-            for (&dir, &expected) in points.iter().zip(&expected) {
+            for (&dir, &(_, expected)) in points.iter().zip(&drawn) {
                 add(&mut errors, read(dir), expected, truth.exact.mean(), || format!("direction = {dir:?}"));
             }
             let at = |place: [f64; 2]| format!("direction = {:?}", direction_at(place));
-            truth.search(&mut errors, WIDE, &known, asked, |(dir, _)| read(dir), at);
+            truth.search(&mut errors, [&near, &known], asked, |(dir, _)| read(dir), at);
             let mut row = Row::new("irradiance", method, &domain);
             errors.fill(&mut row);
             row.take_time(time, points.len());
@@ -293,7 +313,11 @@ mod tests {
             environment_sample(&baked.radiance, dir, lod_linear(roughness, baked.radiance.len() as f64))
         };
         let mut errors = Errors::default();
-        truth.search(&mut errors, SHARP, &truth.nearly(2000, asked), asked, read, |place| format!("{place:?}"));
+        let near = Truth::known((0..2000).into_par_iter().map(search::place), |place| {
+            let (dir, roughness) = asked(place);
+            truth.near.prefiltered(dir, roughness)
+        });
+        truth.search(&mut errors, [&near, &Vec::new()], asked, read, |place| format!("{place:?}"));
         let most = |k: usize| {
             let [a, b] = [0.754_877_666, 0.569_840_291].map(|step: f64| (0.5 + step * k as f64).fract());
             let (dir, roughness) = asked([a, b, 0.0]);
@@ -301,5 +325,24 @@ mod tests {
         };
         let found = (0..10_000).into_par_iter().map(most).reduce(|| 0.0, f64::max);
         assert!(errors.max() > 0.95 * found, "{} at most, but {found}", errors.max());
+    }
+
+    /// An error that stands in one corner of a cube alone is found, where nothing that is drawn comes near it.
+    #[test]
+    fn errors_of_the_corners_of_cubes_are_found() {
+        let truth = Truth::new(&Equirect::from_fn(64, 32, |[_, y, _]| [1.0 + 0.5 * y as f32; 3]));
+        let corner = unit([-1.0, -1.0, 1.0]);
+        let read = |(dir, _): ([f64; 3], f64)| {
+            let cosine: f64 = (0..3).map(|i| corner[i] * dir[i]).sum();
+            let light = truth.exact.prefiltered(dir, 1.0);
+            light.map(|x| if cosine > 0.99995 { 1.2 * x as f32 } else { x as f32 })
+        };
+        let asked = |place: [f64; 2]| (direction_at(place), 1.0);
+        let light = |place: [f64; 2]| truth.exact.prefiltered(direction_at(place), 1.0);
+        let known = Truth::known(truth.remarkable(), light);
+        let near = Truth::known((0..300).into_par_iter().map(search::place), light);
+        let mut errors = Errors::default();
+        truth.search(&mut errors, [&near, &known], asked, read, |place| format!("{place:?}"));
+        assert!(errors.max() > 0.19, "{}", errors.max());
     }
 }

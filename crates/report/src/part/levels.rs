@@ -3,13 +3,13 @@
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
 
-use super::ibl::{largest, off, unit};
+use super::ibl::{Truth, largest, off, unit};
 use crate::error::Errors;
 use crate::timing::{Candidate, measured_and_told};
 use crate::{Effort, Row, Run};
 use halfvector_ibl::{
-    BakeOptions, BakedEnvironment, Cube, LevelMap, LoadedEnvironment, Prefilter, Quadrature, Quality, bake,
-    direction_from_face, face_from_direction,
+    BakeOptions, BakedEnvironment, Cube, LevelMap, LoadedEnvironment, Prefilter, Quality, bake, direction_from_face,
+    face_from_direction,
 };
 use rayon::prelude::*;
 
@@ -24,7 +24,7 @@ pub(super) fn rows(
     first: f64,
     name: &str,
     environment: &LoadedEnvironment,
-    truth: &Quadrature,
+    truth: &Truth,
     before: &[Row],
 ) -> Vec<Row> {
     let effort = run.effort();
@@ -61,7 +61,7 @@ pub(super) fn rows(
         })
         .collect();
     let mut candidates: Vec<_> = runs.iter_mut().map(|run| run as Candidate<'_>).collect();
-    let mut judged = Judged { name, effort, truth, known: HashMap::new() };
+    let mut judged = Judged { name, effort, truth, known: HashMap::new(), near: HashMap::new() };
     let mut rows: Vec<Row> = Vec::new();
     let mut bakes = 0;
     let times = measured_and_told(&mut candidates, rounds, |number| {
@@ -87,10 +87,15 @@ const TEXEL: u64 = 8;
 struct Judged<'a> {
     name: &'a str,
     effort: Effort,
-    truth: &'a Quadrature,
-    /// Bakes have many levels and places in common: what is true of a texel, by its level's size and roughness.
-    known: HashMap<(usize, u32, Texel), [f64; 3]>,
+    truth: &'a Truth,
+    /// Bakes have many levels and places in common: what is true of a texel.
+    known: HashMap<Key, [f64; 3]>,
+    /// The same, nearly.
+    near: HashMap<Key, [f64; 3]>,
 }
+
+/// A texel, by its level's size and roughness.
+type Key = (usize, u32, Texel);
 
 /// Perceptual roughness from which levels are judged: sums over texels are no truth of narrower lobes.
 const LEAST_ROUGHNESS: f32 = 0.19;
@@ -98,14 +103,32 @@ const LEAST_ROUGHNESS: f32 = 0.19;
 impl Judged<'_> {
     /// The errors of some texels of a level, each channel's.
     fn errors(&mut self, baked: &BakedEnvironment, level: usize, texels: &[Texel]) -> Vec<[f64; 3]> {
-        let (truth, cube, roughness) = (self.truth, &baked.radiance[level], baked.roughness[level]);
-        let key = |texel: Texel| (cube.size, roughness.to_bits(), texel);
-        let is_new = |texel: &Texel| !self.known.contains_key(&key(*texel));
-        let new: BTreeSet<Texel> = texels.iter().copied().filter(is_new).collect();
-        let light = |texel: Texel| (key(texel), truth.prefiltered(centre(cube.size, texel), f64::from(roughness)));
-        self.known.par_extend(new.into_par_iter().map(light));
-        let error = |&texel: &Texel| off(cube.sample(centre(cube.size, texel)), self.known[&key(texel)], truth.mean());
-        texels.iter().map(error).collect()
+        let exact = &self.truth.exact;
+        beside(&mut self.known, baked, level, texels, |dir, roughness| exact.prefiltered(dir, roughness), exact.mean())
+    }
+
+    /// The texels of a level that err most beside what is nearly true, no two of them near each other. All of a small level are looked at,
+    /// and all around the worst of a large one.
+    fn worst(&mut self, baked: &BakedEnvironment, level: usize) -> Vec<Texel> {
+        let (size, truth) = (baked.radiance[level].size, self.truth);
+        let mut errors = |texels: &[Texel]| -> Vec<(f64, Texel)> {
+            let light = |dir: [f64; 3], roughness: f64| truth.near.prefiltered(dir, roughness);
+            let errors = beside(&mut self.near, baked, level, texels, light, truth.exact.mean());
+            errors.into_iter().map(largest).zip(texels.iter().copied()).collect()
+        };
+        let step = size.div_ceil(self.effort.pick(32, 64)).max(1);
+        let places = || (0..size).step_by(step);
+        let faces =
+            (0..6).flat_map(|face| places().flat_map(move |row| places().map(move |column| (face, [column, row]))));
+        let edges = marked(size);
+        let mut all: Vec<Texel> = faces.chain(edges).collect::<BTreeSet<_>>().into_iter().collect();
+        let (starts, apart) = (self.effort.pick(8, 24), (size / 12).max(2) as f64 * 2.0 / size as f64);
+        let mut found = spaced(errors(&all), size, starts, apart);
+        if step > 1 {
+            all = found.iter().flat_map(|&texel| square(size, texel, step, 1)).collect();
+            found = spaced(errors(&all), size, starts, apart);
+        }
+        found
     }
 
     /// From a texel of a level to where the error is larger than at the neighbours: the error there, and the texel.
@@ -133,7 +156,7 @@ impl Judged<'_> {
         let size = cube.size;
         let [brightest, steepest] = remarkable(cube);
         let bright = square(size, brightest, (size / 12).min(5), 1);
-        let drawn: BTreeSet<Texel> = (0..self.effort.pick(60, 400)).map(|k| texel(size, k)).collect();
+        let drawn: BTreeSet<Texel> = (0..self.effort.pick(120, 400)).map(|k| texel(size, k)).collect();
         let all = (6 * size * size) as f64;
         let rest = drawn.difference(&bright).count();
         let mut worst: Vec<(f64, Texel)> = Vec::new();
@@ -149,7 +172,10 @@ impl Judged<'_> {
             found.sort_by(|a, b| b.0.total_cmp(&a.0));
             worst.extend(found.iter().take(self.effort.pick(1, 4)));
         }
-        for from in worst.into_iter().map(|(_, texel)| texel).chain([steepest]) {
+        let mut starts: Vec<Texel> = marked(size).chain(self.worst(baked, level)).chain([steepest]).collect();
+        starts.extend(worst.into_iter().map(|(_, texel)| texel));
+        let found = self.errors(baked, level, &starts).into_iter().map(largest).zip(starts).collect();
+        for from in spaced(found, size, self.effort.pick(3, 8), 4.0 / size as f64) {
             let (found, texel) = self.climbed(baked, level, from);
             errors.search(found, || said(roughness, size, texel));
         }
@@ -187,6 +213,48 @@ fn remarkable(cube: &Cube) -> [Texel; 2] {
     let all = || (0..6 * size * size).map(|i| (i / (size * size), [i % size, i / size % size]));
     let most = |of: &dyn Fn(Texel) -> f32| all().max_by(|a, b| of(*a).total_cmp(&of(*b))).unwrap_or_default();
     [most(&light), most(&rise)]
+}
+
+/// The errors of some texels of a level beside what is known of it, which is made where it is not.
+fn beside(
+    known: &mut HashMap<Key, [f64; 3]>,
+    baked: &BakedEnvironment,
+    level: usize,
+    texels: &[Texel],
+    light: impl Fn([f64; 3], f64) -> [f64; 3] + Sync,
+    mean: [f64; 3],
+) -> Vec<[f64; 3]> {
+    let (cube, roughness) = (&baked.radiance[level], baked.roughness[level]);
+    let key = |texel: Texel| (cube.size, roughness.to_bits(), texel);
+    let is_new = |texel: &Texel| !known.contains_key(&key(*texel));
+    let new: BTreeSet<Texel> = texels.iter().copied().filter(is_new).collect();
+    let made = |texel: Texel| (key(texel), light(centre(cube.size, texel), f64::from(roughness)));
+    known.par_extend(new.into_par_iter().map(made));
+    let error = |&texel: &Texel| off(cube.sample(centre(cube.size, texel)), known[&key(texel)], mean);
+    texels.iter().map(error).collect()
+}
+
+/// The texels of a cube in the corners of its faces and at the middles of their edges.
+fn marked(size: usize) -> impl Iterator<Item = Texel> {
+    let places = move || [0, size / 2, size - 1].into_iter();
+    (0..6).flat_map(move |face| places().flat_map(move |row| places().map(move |column| (face, [column, row]))))
+}
+
+/// Of some texels with their errors the worst, no two of them nearer to each other than this chord.
+fn spaced(mut found: Vec<(f64, Texel)>, size: usize, count: usize, apart: f64) -> Vec<Texel> {
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut chosen: Vec<Texel> = Vec::new();
+    for (_, texel) in found {
+        let dir = centre(size, texel);
+        let is_near = |other: &Texel| {
+            let other = centre(size, *other);
+            (0..3).map(|i| (dir[i] - other[i]).powi(2)).sum::<f64>() < apart * apart
+        };
+        if chosen.len() < count && !chosen.iter().any(is_near) {
+            chosen.push(texel);
+        }
+    }
+    chosen
 }
 
 /// A texel of a cube: its face, column and row.
@@ -234,10 +302,11 @@ mod tests {
             let cosine: f64 = (0..3).map(|i| SUN[i] * dir[i]).sum();
             if cosine > 0.998 { [3000.0, 2500.0, 2000.0] } else { [0.3, 0.4, 0.5 + 0.2 * dir[1] as f32] }
         });
-        let truth = Quadrature::new(&map);
+        let truth = Truth::new(&map);
         let options = BakeOptions { size: 64, quality: Quality::Preview, ..BakeOptions::default() };
         let baked = bake(&map.into(), &options);
-        let mut judged = Judged { name: "sun", effort: Effort::Quick, truth: &truth, known: HashMap::new() };
+        let mut judged =
+            Judged { name: "sun", effort: Effort::Quick, truth: &truth, known: HashMap::new(), near: HashMap::new() };
         let row = judged.row("ggx preview", 64, &baked);
         let (mut most, mut squares, mut levels) = (0.0_f64, 0.0, 0.0);
         for level in (1..baked.radiance.len()).filter(|&level| baked.roughness[level] >= LEAST_ROUGHNESS) {

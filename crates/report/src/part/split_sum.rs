@@ -1,8 +1,9 @@
 //! The split sum's model error: what is left when prefiltered light and the table of albedos are exact. It is no error of a
 //! prefilter, and no filter can mend it.
 
-use super::ibl::{add, direction, unit};
+use super::ibl::{add, direction, direction_at, unit};
 use crate::error::Errors;
+use crate::search;
 use crate::timing::measured;
 use crate::{Effort, Row};
 use halfvector_brdf::ggx::{d_ggx, v_smith_ggx_correlated};
@@ -36,32 +37,42 @@ pub(super) fn rows(effort: Effort, name: &str, environment: &LoadedEnvironment, 
     let map = map.area_resampled(2 * ROWS, ROWS);
     let (truth, cells) = (Quadrature::new(&map), cells(&map));
     let costs = costs(effort, baked, &cells);
-    let row = |(n_dot_v, roughness): (f64, f64)| {
-        let domain = format!(
-            "{name}: the split sum's model error, n.v {n_dot_v}, roughness {roughness}; exact levels times exact \
-             (F0 a + b), relative to the integral of light times the lobe"
-        );
-        let [a, b] = dfg(n_dot_v, roughness, Visibility::Correlated);
-        let mut errors = Errors::default();
-        for k in 0..effort.pick(6, 60) {
-            let n = direction(k);
-            let v = view(n, n_dot_v);
-            let reflected = std::array::from_fn(|i| 2.0 * n_dot_v * n[i] - v[i]);
-            let [light_a, light_b] = reflection(&cells, n, v, roughness * roughness);
-            let prefiltered = truth.prefiltered(unit(reflected), roughness);
-            for f0 in F0 {
-                let split = std::array::from_fn(|c| (prefiltered[c] * (f0[c] * a + b)) as f32);
-                let exact = std::array::from_fn(|c| f0[c] * light_a[c] + light_b[c]);
-                let mean = std::array::from_fn(|c| truth.mean()[c] * (f0[c] * a + b));
-                add(&mut errors, split, exact, mean, || format!("normal = {n:?}, view = {v:?}, f0 = {f0:?}"));
+    let of_view = |n_dot_v: f64| -> [Row; ROUGHNESS.len()] {
+        let pairs = ROUGHNESS.map(|roughness| dfg(n_dot_v, roughness, Visibility::Correlated));
+        // A normal, the view, and for each roughness what is reflected and the prefiltered light.
+        let points: Vec<_> = (0..effort.pick(120, 600))
+            .into_par_iter()
+            .map(|k| {
+                let [a, b, turn] = search::place(k);
+                let n = direction_at([a, b]);
+                let v = view(n, n_dot_v, turn);
+                let reflected = unit(std::array::from_fn(|i| 2.0 * n_dot_v * n[i] - v[i]));
+                let lit = reflection(&cells, n, v, ROUGHNESS.map(|roughness| roughness * roughness));
+                (n, v, lit, ROUGHNESS.map(|roughness| truth.prefiltered(reflected, roughness)))
+            })
+            .collect();
+        std::array::from_fn(|i| {
+            let domain = format!(
+                "{name}: the split sum's model error, n.v {n_dot_v}, roughness {}; exact levels times exact \
+                 (F0 a + b), relative to the integral of light times the lobe",
+                ROUGHNESS[i]
+            );
+            let ([a, b], mut errors) = (pairs[i], Errors::default());
+            for (n, v, lit, prefiltered) in &points {
+                let [light_a, light_b] = lit[i];
+                for f0 in F0 {
+                    let split = std::array::from_fn(|c| (prefiltered[i][c] * (f0[c] * a + b)) as f32);
+                    let exact = std::array::from_fn(|c| f0[c] * light_a[c] + light_b[c]);
+                    let mean = std::array::from_fn(|c| truth.mean()[c] * (f0[c] * a + b));
+                    add(&mut errors, split, exact, mean, || format!("normal = {n:?}, view = {v:?}, f0 = {f0:?}"));
+                }
             }
-        }
-        let mut row = Row { domain, ..costs[0].clone() };
-        errors.fill(&mut row);
-        row
+            let mut row = Row { domain, ..costs[0].clone() };
+            errors.fill(&mut row);
+            row
+        })
     };
-    let cases: Vec<(f64, f64)> = N_DOT_V.iter().flat_map(|&v| ROUGHNESS.map(|roughness| (v, roughness))).collect();
-    let mut rows: Vec<Row> = cases.into_par_iter().map(row).collect();
+    let mut rows: Vec<Row> = N_DOT_V.into_iter().flat_map(of_view).collect();
     let domain = format!("{name}: the integral of light times the lobe over every texel; the truth of the other rows");
     rows.push(Row { domain, ..costs[1].clone() });
     rows
@@ -83,7 +94,7 @@ fn costs(effort: Effort, baked: &BakedEnvironment, cells: &[[f64; 6]]) -> [Row; 
         };
         (0..READS).map(read).sum()
     };
-    let mut whole = |_: usize| reflection(cells, n, view(n, N_DOT_V[2]), 0.16)[0][0];
+    let mut whole = |_: usize| reflection(cells, n, view(n, N_DOT_V[2], 0.0), [0.16])[0][0][0];
     let times = measured(&mut [&mut split, &mut whole], effort.pick(5, 20));
     let mut rows = [MODEL, WHOLE].map(|method| Row::new("split_sum", method, ""));
     rows[0].take_time(times[0], READS);
@@ -109,20 +120,22 @@ pub(super) fn cells(map: &Equirect) -> Vec<[f64; 6]> {
     (0..width * height).map(cell).collect()
 }
 
-/// A unit direction at this cosine to the unit normal.
-pub(super) fn view(n: [f64; 3], n_dot_v: f64) -> [f64; 3] {
+/// A unit direction at this cosine to the unit normal, and this share of a turn around it.
+pub(super) fn view(n: [f64; 3], n_dot_v: f64, turn: f64) -> [f64; 3] {
     let aside = if n[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
     let along = n[0] * aside[0] + n[1] * aside[1] + n[2] * aside[2];
-    let tangent = unit(std::array::from_fn(|i| aside[i] - along * n[i]));
-    std::array::from_fn(|i| n_dot_v * n[i] + (1.0 - n_dot_v * n_dot_v).sqrt() * tangent[i])
+    let t = unit(std::array::from_fn(|i| aside[i] - along * n[i]));
+    let b = [n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]];
+    let ((sin, cos), across) = ((std::f64::consts::TAU * turn).sin_cos(), (1.0 - n_dot_v * n_dot_v).sqrt());
+    std::array::from_fn(|i| n_dot_v * n[i] + across * (cos * t[i] + sin * b[i]))
 }
 
-/// The sums of light times D V n.l (1 - (1 - l.h)^5) and times D V n.l (1 - l.h)^5: the reflection is F0 times the first
+/// For each alpha the sums of light times D V n.l (1 - (1 - l.h)^5) and times D V n.l (1 - l.h)^5: the reflection is F0 times the first
 /// plus the second (Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering").
-fn reflection(cells: &[[f64; 6]], n: [f64; 3], v: [f64; 3], alpha: f64) -> [[f64; 3]; 2] {
+fn reflection<const N: usize>(cells: &[[f64; 6]], n: [f64; 3], v: [f64; 3], alphas: [f64; N]) -> [[[f64; 3]; 2]; N] {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let n_dot_v = dot(n, v);
-    let mut sums = [[0.0; 3]; 2];
+    let mut sums = [[[0.0; 3]; 2]; N];
     for &[x, y, z, r, g, b] in cells {
         let l = [x, y, z];
         let n_dot_l = dot(n, l);
@@ -131,12 +144,14 @@ fn reflection(cells: &[[f64; 6]], n: [f64; 3], v: [f64; 3], alpha: f64) -> [[f64
         }
         let h = unit(std::array::from_fn(|i| l[i] + v[i]));
         let (n_dot_h, l_dot_h) = (dot(n, h), dot(l, h));
-        let d = d_ggx(n_dot_h, (1.0 - n_dot_h * n_dot_h).max(0.0), alpha);
-        let weight = d * v_smith_ggx_correlated(n_dot_v, n_dot_l, l_dot_h, alpha) * n_dot_l;
         let fresnel = (1.0 - l_dot_h).max(0.0).powi(5);
-        for (sum, share) in sums.iter_mut().zip([1.0 - fresnel, fresnel]) {
-            for (sum, light) in sum.iter_mut().zip([r, g, b]) {
-                *sum += weight * share * light;
+        for (sums, alpha) in sums.iter_mut().zip(alphas) {
+            let d = d_ggx(n_dot_h, (1.0 - n_dot_h * n_dot_h).max(0.0), alpha);
+            let weight = d * v_smith_ggx_correlated(n_dot_v, n_dot_l, l_dot_h, alpha) * n_dot_l;
+            for (sum, share) in sums.iter_mut().zip([1.0 - fresnel, fresnel]) {
+                for (sum, light) in sum.iter_mut().zip([r, g, b]) {
+                    *sum += weight * share * light;
+                }
             }
         }
     }
