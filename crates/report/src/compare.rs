@@ -66,12 +66,9 @@ impl Change {
 /// what all methods lose together is not seen. Errors are compared only when both reports drew the same points, which they do when
 /// their efforts are the same. What was recorded once is compared with nothing.
 pub fn changes(old: &Report, new: &Report) -> Vec<Change> {
-    let key = |row: &Row| (row.term.clone(), row.method.clone(), row.domain.clone());
-    let of = |part: &Row| new.rows.iter().find(|row| key(row) == key(part));
-    let all: Vec<Pair<'_>> = old.rows.iter().filter_map(|row| Some((row, of(row)?))).collect();
-    let is_recorded = |row: &Row| row.recorded.is_some();
-    let pairs: Vec<Pair<'_>> =
-        all.iter().copied().filter(|(old, new)| !is_recorded(old) && !is_recorded(new)).collect();
+    let of = |known: &Row| new.rows.iter().find(|row| is_same(row, known));
+    let all = pairs(old, new);
+    let pairs = measured(&all);
     let mut changes = times::slower(&pairs);
     changes.extend(counts::grown(&pairs));
     if old.effort == new.effort {
@@ -99,6 +96,52 @@ pub fn changes(old: &Report, new: &Report) -> Vec<Change> {
     changes.extend(vanished(&pairs, is_measured("shaders"), lost.is_some()));
     changes.extend(lost);
     changes
+}
+
+fn is_same(a: &Row, b: &Row) -> bool {
+    [&a.term, &a.method, &a.domain] == [&b.term, &b.method, &b.domain]
+}
+
+fn is_recorded(row: &Row) -> bool {
+    row.recorded.is_some()
+}
+
+/// The rows that both have.
+fn pairs<'r>(old: &'r Report, new: &'r Report) -> Vec<Pair<'r>> {
+    let of = |known: &Row| new.rows.iter().find(|row| is_same(row, known));
+    old.rows.iter().filter_map(|row| Some((row, of(row)?))).collect()
+}
+
+/// Those of them that were measured for both.
+fn measured<'r>(all: &[Pair<'r>]) -> Vec<Pair<'r>> {
+    all.iter().copied().filter(|(old, new)| !is_recorded(old) && !is_recorded(new)).collect()
+}
+
+/// Times of which little can be said.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hidden {
+    /// How many of them.
+    pub count: usize,
+    /// How many times both reports have.
+    pub of: usize,
+    /// How many times as long one of them may take without being told.
+    pub most: f64,
+}
+
+impl fmt::Display for Hidden {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Hidden { count, of, most } = self;
+        write!(
+            f,
+            "could not be judged: {count} of {of} times; their spreads, or a yardstick that something else slowed, hide up to {most:.1} \
+             times as long"
+        )
+    }
+}
+
+/// What the noise of the two reports hides of the times; none where a slowdown by half is seen in all.
+pub fn hidden(old: &Report, new: &Report) -> Option<Hidden> {
+    times::hidden(&measured(&pairs(old, new)))
 }
 
 /// A part that was measured and is left out now, once for all its rows.

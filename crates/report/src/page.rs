@@ -203,7 +203,7 @@ fn figure(comparison: &Comparison<'_>, report: &Report, page: &mut String) {
         scatter(comparison),
         escaped(&capital(&words::inputs(&comparison.domains))),
         escaped(&against),
-        points(&cases),
+        words::points(&cases),
         escaped(&comparison.how()),
     );
     table(comparison, page);
@@ -213,22 +213,6 @@ fn figure(comparison: &Comparison<'_>, report: &Report, page: &mut String) {
         page.push_str("</details>\n");
     }
     page.push_str("</figure>\n");
-}
-
-/// How many inputs the errors of some rows are of, and what their largest error is; nothing where it is not known of all.
-fn points(rows: &[&Row]) -> String {
-    let Some(counts) = rows.iter().map(|row| row.points).collect::<Option<Vec<u64>>>() else { return String::new() };
-    let (Some(least), Some(most)) = (counts.iter().min(), counts.iter().max()) else { return String::new() };
-    let [least, most] = [*least, *most].map(|count| words::number(count as f64));
-    let count = if least == most { least } else { format!("{least} to {most}") };
-    let largest = match rows.iter().filter(|row| row.searched).count() {
-        0 => "the largest error is the largest of these",
-        found if found == rows.len() => "the largest error is what a search from the worst of these finds",
-        _ => {
-            "the largest error is the largest of these, or of a search from the worst of them where that can be larger"
-        }
-    };
-    format!(" Each error is of {count} inputs; {largest}.")
 }
 
 /// A cell with a number: shown short, sorted by its whole value.
@@ -241,22 +225,14 @@ fn cell(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
 
 /// The cell of a largest error; marked where it is of a list of inputs, and was not searched for.
 fn largest(row: &Row, unit: Unit) -> String {
-    let mark = if is_of_list(row) { " †" } else { "" };
+    let mark = if row.is_of_list() { " †" } else { "" };
     cell(row.error_max, |x| words::error(x, unit) + mark)
-}
-
-/// Whether the largest error is that of the inputs that were drawn, and may be larger between them.
-fn is_of_list(row: &Row) -> bool {
-    row.points.is_some() && row.error_max.is_some() && !row.searched
 }
 
 /// What the mark of [`largest`] says, where a table has it.
 fn not_searched<'a>(mut rows: impl Iterator<Item = &'a Row>, page: &mut String) {
-    if rows.any(is_of_list) {
-        page.push_str(
-            "<p class=\"small muted\">† the largest of the inputs that were drawn: it was not searched for, and may be larger between \
-             them.</p>\n",
-        );
+    if rows.any(Row::is_of_list) {
+        let _ = writeln!(page, "<p class=\"small muted\">† {}</p>", words::NOT_SEARCHED);
     }
 }
 

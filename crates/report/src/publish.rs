@@ -115,13 +115,14 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
     for comparison in comparisons {
         let _ = write!(
             page,
-            "\n## {}: {}\n\n{}. {}. {}\n\n| method | rms error | largest error | {} | beside the cheapest | unbeaten |\n\
+            "\n## {}: {}\n\n{}. {}. {}{}\n\n| method | rms error | largest error | {} | beside the cheapest | unbeaten |\n\
              |---|---|---|---|---|---|\n",
             comparison.term,
             words::finding(comparison),
             words::inputs(&comparison.domains),
             words::against(comparison.domains[0]),
             comparison.how(),
+            words::points(&comparison.entries.iter().map(|entry| entry.largest).collect::<Vec<_>>()),
             match comparison.cost {
                 Cost::Bytes => "memory",
                 Cost::Instructions => "instructions",
@@ -131,9 +132,10 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
         let cheapest = comparison.entries.iter().map(|entry| entry.cost).fold(f64::INFINITY, f64::min);
         for entry in &comparison.entries {
             let error = |x: Option<f64>| x.map_or(String::new(), |x| words::error(x, comparison.unit));
+            let mark = if entry.largest.is_of_list() { " †" } else { "" };
             let _ = writeln!(
                 page,
-                "| `{}` | {} | {} | {} | {:.1} | {} |",
+                "| `{}` | {} | {}{mark} | {} | {:.1} | {} |",
                 cell(&entry.row.method),
                 error(Some(entry.rms)),
                 error(entry.largest.error_max),
@@ -141,6 +143,9 @@ fn page(report: &Report, comparisons: &[Comparison<'_>]) -> String {
                 entry.cost / cheapest.max(f64::MIN_POSITIVE),
                 if entry.front { "yes" } else { "" }
             );
+        }
+        if comparison.entries.iter().any(|entry| entry.largest.is_of_list()) {
+            let _ = writeln!(page, "\n† {}", words::NOT_SEARCHED);
         }
     }
     precision(report, &mut page);
@@ -248,6 +253,26 @@ fn methods_csv(comparisons: &[Comparison<'_>], rows: &[Row]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What was not searched for is marked, as on the report's own page, and the number of inputs stands there.
+    #[test]
+    fn largest_errors_of_lists_are_marked() {
+        let of = |method: &str, searched| Row {
+            error_max: Some(0.4),
+            error_rms: Some(0.1),
+            cost_ns: Some(1.0),
+            points: Some(12),
+            searched,
+            ..Row::new("d", method, "all; relative")
+        };
+        let page = |searched| {
+            let report = Report { rows: vec![of("a", searched), of("b", searched)], ..Report::begun(Effort::Quick) };
+            files(&report).swap_remove(0).1
+        };
+        assert_eq!(page(false).matches("40 % †").count(), 2, "{}", page(false));
+        assert!(page(false).contains("† the largest of the inputs") && page(false).contains("of 12 inputs"));
+        assert!(!page(true).contains('†'), "{}", page(true));
+    }
 
     #[test]
     fn a_method_s_own_row_comes_before_its_variants() {

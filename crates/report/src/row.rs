@@ -88,6 +88,11 @@ impl Row {
         self.yardstick_ns = Some(time.pace * 1e9);
     }
 
+    /// Whether the largest error is that of the inputs that were drawn, and may be larger between them.
+    pub(crate) fn is_of_list(&self) -> bool {
+        self.points.is_some() && self.error_max.is_some() && !self.searched
+    }
+
     /// Whether the error is what the arithmetic of f32 adds to the method, and not what the method leaves out.
     pub fn is_rounding(&self) -> bool {
         self.domain.ends_with("the same form in f64")

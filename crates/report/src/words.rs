@@ -269,6 +269,26 @@ fn exponent(text: &str) -> &str {
     if count == 0 { "" } else { &text[..text.len() - digits.len() + count] }
 }
 
+/// How many inputs the errors of some rows are of, and what their largest error is; nothing where it is not known of all.
+pub(crate) fn points(rows: &[&Row]) -> String {
+    let Some(counts) = rows.iter().map(|row| row.points).collect::<Option<Vec<u64>>>() else { return String::new() };
+    let (Some(least), Some(most)) = (counts.iter().min(), counts.iter().max()) else { return String::new() };
+    let [least, most] = [*least, *most].map(|count| number(count as f64));
+    let count = if least == most { least } else { format!("{least} to {most}") };
+    let largest = match rows.iter().filter(|row| row.searched).count() {
+        0 => "the largest error is the largest of these",
+        found if found == rows.len() => "the largest error is what a search from the worst of these finds",
+        _ => {
+            "the largest error is the largest of these, or of a search from the worst of them where that can be larger"
+        }
+    };
+    format!(" Each error is of {count} inputs; {largest}.")
+}
+
+/// What the mark beside a largest error says that was not searched for.
+pub(crate) const NOT_SEARCHED: &str =
+    "the largest of the inputs that were drawn: it was not searched for, and may be larger between them.";
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -43,6 +43,9 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     check_place(&args.output.join("report.json"))?;
     // Before the work: a wrong file is told at once, and it may be the one that is written.
     let old = args.compare.as_deref().map(read).transpose()?;
+    if let Some(path) = &args.compare {
+        not_replaced(path, &args.output.join("report.json"))?;
+    }
     let effort = if args.quick { Effort::Quick } else { Effort::Full };
     let parts: Vec<_> =
         PARTS.iter().filter(|part| args.only.is_empty() || args.only.iter().any(|only| only == part.name)).collect();
@@ -100,6 +103,9 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     for change in &certain {
         print(&change.to_string())?;
     }
+    if let Some(hidden) = compare::hidden(&old, &report) {
+        note(hidden);
+    }
     // What else the machine does slows one method more than another, in a whole run: a change stays.
     again::confirm(&mut slower, &old, &report, &took, &kept)?;
     compare::settle(&mut slower);
@@ -109,6 +115,17 @@ pub(crate) fn run(args: &ReportArgs) -> Result<u8, Failure> {
     let (common, worse) = (compare::common(&old, &report), certain.len() + slower.len());
     note(format_args!("figures that are worse: {worse}, of {common} rows that the report of {} has, too", old.date));
     Ok(if worse == 0 { 0 } else { FOUND })
+}
+
+/// The report that is compared with stays: measured anew it would lose the parts that are not.
+fn not_replaced(old: &Path, new: &Path) -> Result<(), Failure> {
+    // What is not there cannot be replaced.
+    let places = [old, new].map(|path| path.canonicalize().ok());
+    if places[0].is_none() || places[0] != places[1] {
+        return Ok(());
+    }
+    let failure = Failure::input("the old report would be replaced by the new one").at(old);
+    Err(failure.because("--output writes it in the same place").try_to("another folder for --output"))
 }
 
 /// Whether an old report has rows of any of the parts that are to be measured.
@@ -138,6 +155,10 @@ fn read(path: &Path) -> Result<Report, Failure> {
         let remedy = "a report.json that `halfvector report` wrote";
         Failure::input("the old report cannot be read").at(path).because(why).try_to(remedy)
     };
+    // A pipe or a device may have no end.
+    if path.exists() && !path.is_file() {
+        return Err(wrong(&"it is no regular file"));
+    }
     let text = std::fs::read_to_string(path).map_err(|error| wrong(&error))?;
     Report::from_json(&text).map_err(|error| wrong(&error))
 }

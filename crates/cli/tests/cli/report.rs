@@ -66,6 +66,28 @@ fn a_place_that_cannot_be_written_is_told_at_once() {
     assert_eq!(std::fs::read_to_string(folder.path("out/report.json")).expect("it stays"), "kept");
 }
 
+/// A device in the place of a file, whose end is never reached, is told before anything is measured; so is an old report that would be
+/// replaced, which stays.
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_or_would_be_lost_is_refused_at_once() {
+    for name in ["report.json", "index.html", "mips.csv"] {
+        let folder = Folder::new();
+        std::fs::create_dir(folder.path("out")).expect("a folder");
+        std::os::unix::fs::symlink("/dev/zero", folder.path("out").join(name)).expect("a link");
+        let run = folder.run(&["report", "--quick", "--only", "mips", "-o", "out"]).ends(1).says(name);
+        assert!(run.stderr.contains("no regular file"), "{}", run.stderr);
+    }
+    let folder = Folder::new();
+    folder.run(&["report", "--quick", "--only", "mips", "--compare", "/dev/zero", "-o", "out"]).ends(1);
+    folder.run(&["report", "--quick", "--only", "mips", "-o", "out"]).ends(0);
+    let old = std::fs::read_to_string(folder.path("out/report.json")).expect("a report");
+    let again = ["report", "--quick", "--only", "mips", "--compare", "out/../out/report.json", "-o", "out"];
+    let run = folder.run(&again).ends(1);
+    assert!(run.stderr.contains("would be replaced"), "{}", run.stderr);
+    assert_eq!(std::fs::read_to_string(folder.path("out/report.json")).expect("it stays"), old);
+}
+
 /// An old report with what no run can have measured is refused with the place, the reason and a remedy, before anything is measured.
 #[test]
 fn an_impossible_old_report_is_refused_at_once() {

@@ -333,3 +333,18 @@ fn peers_are_compared_where_they_are_measured() {
     assert!(found[1].to_string().contains("not measured any more: no such program"), "{}", found[1]);
     assert_eq!(changes(&new, &new), []);
 }
+
+/// What the noise of either run hides is counted, each time once, with how much it may be.
+#[test]
+fn what_could_not_be_judged_is_counted() {
+    let old = report([1.0, 2.0, 4.0], [0.1, 0.2, 0.0]);
+    assert_eq!(hidden(&old, &old), None);
+    let mut strained = old.clone();
+    strained.rows.iter_mut().for_each(|row| row.yardstick_ns = Some(3.5));
+    (strained.rows[1].yardstick_ns, strained.rows[2].cost_spread) = (Some(5.2), Some(0.54));
+    strained.rows.push(Row { domain: "elsewhere".to_owned(), ..strained.rows[1].clone() });
+    let found = hidden(&strained, &strained).expect("two of three");
+    assert_eq!((found.count, found.of), (2, 3));
+    assert!((found.most - 2.79).abs() < 0.02, "{found:?}");
+    assert!(found.to_string().contains("could not be judged: 2 of 3 times"), "{found}");
+}

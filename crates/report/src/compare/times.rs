@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::{Change, Pair, SLOWER};
+use super::{Change, Hidden, Pair, SLOWER};
 use crate::Row;
 use crate::timing::median;
 
@@ -65,7 +65,19 @@ fn strain(row: &Row, fastest: f64) -> f64 {
     row.yardstick_ns.map_or(0.0, |yardstick| (yardstick / fastest - 1.0 - CALM).max(0.0))
 }
 
-pub(super) fn slower(pairs: &[Pair<'_>]) -> Vec<Change> {
+/// A time of both reports, and what is said of it.
+struct Judged<'a> {
+    pair: Pair<'a>,
+    name: &'static str,
+    before: f64,
+    now: f64,
+    /// How many times as long it takes, beside what else ran.
+    ratio: f64,
+    /// Up to how many times noise allows.
+    allowed: f64,
+}
+
+fn judged<'a>(pairs: &[Pair<'a>]) -> Vec<Judged<'a>> {
     // How fast the processor is beside the old one, and the device.
     let machine = [false, true].map(|of_device| {
         let kinds = || TIMED.iter().filter(|timed| timed.of_device == of_device);
@@ -74,30 +86,43 @@ pub(super) fn slower(pairs: &[Pair<'_>]) -> Vec<Change> {
         if all.is_empty() { 1.0 } else { median(all) }
     });
     let fastest = [fastest(pairs.iter().map(|pair| pair.0)), fastest(pairs.iter().map(|pair| pair.1))];
+    let of = |pair: Pair<'a>, timed: &Timed| {
+        let (old, new) = pair;
+        let (before, now) = ((timed.cost)(old)?, (timed.cost)(new)?);
+        let ratio = ratio(timed, pair)? / machine[usize::from(timed.of_device)];
+        let noise = match ((timed.spread)(old), (timed.spread)(new)) {
+            (Some(first), Some(second)) => TIME_NOISE + first + second,
+            _ => UNSURE,
+        };
+        let strain = if timed.of_device { 0.0 } else { strain(old, fastest[0]) + strain(new, fastest[1]) };
+        Some(Judged { pair, name: timed.name, before, now, ratio, allowed: 1.0 + noise + 2.0 * strain })
+    };
+    pairs.iter().flat_map(|&pair| TIMED.iter().filter_map(|timed| of(pair, timed)).collect::<Vec<_>>()).collect()
+}
+
+/// The times of which a slowdown by half may be hidden by spreads or by what else the machine did: how many of how many, and how much the
+/// most of them may have become slower.
+pub(super) fn hidden(pairs: &[Pair<'_>]) -> Option<Hidden> {
+    let mut known = HashSet::new();
+    let mut judged = judged(pairs);
+    // The same time stands in the rows of all domains of a method.
+    judged.retain(|one| known.insert((&one.pair.0.term, &one.pair.0.method, one.name, one.before.to_bits())));
+    let unsure = || judged.iter().map(|one| one.allowed).filter(|&allowed| allowed > 1.0 + UNSURE);
+    let most = unsure().max_by(f64::total_cmp)?;
+    Some(Hidden { count: unsure().count(), of: judged.len(), most })
+}
+
+pub(super) fn slower(pairs: &[Pair<'_>]) -> Vec<Change> {
     let mut changes = Vec::new();
     // The same time stands in the rows of all domains of a method.
     let mut told = HashSet::new();
-    for &(old, new) in pairs {
-        for timed in &TIMED {
-            let (Some(before), Some(now)) = ((timed.cost)(old), (timed.cost)(new)) else { continue };
-            let Some(ratio) = ratio(timed, (old, new)).map(|ratio| ratio / machine[usize::from(timed.of_device)])
-            else {
-                continue;
-            };
-            let noise = match ((timed.spread)(old), (timed.spread)(new)) {
-                (Some(first), Some(second)) => TIME_NOISE + first + second,
-                _ => UNSURE,
-            };
-            let strain = if timed.of_device { 0.0 } else { strain(old, fastest[0]) + strain(new, fastest[1]) };
-            let allowed = 1.0 + noise + 2.0 * strain;
-            let seen = ratio > allowed && (ratio - 1.0) * before > TIME_FLOOR;
-            if seen && told.insert((&old.term, &old.method, timed.name, before.to_bits())) {
-                let figures = format!(
-                    "{} takes {now:.3} ns, was {before:.3} ns; {ratio:.2} times as long beside what else ran, noise allows {allowed:.2}",
-                    timed.name
-                );
-                changes.push(Change::of(SLOWER, old, timed.name, figures));
-            }
+    for Judged { pair: (old, _), name, before, now, ratio, allowed } in judged(pairs) {
+        let seen = ratio > allowed && (ratio - 1.0) * before > TIME_FLOOR;
+        if seen && told.insert((&old.term, &old.method, name, before.to_bits())) {
+            let figures = format!(
+                "{name} takes {now:.3} ns, was {before:.3} ns; {ratio:.2} times as long beside what else ran, noise allows {allowed:.2}"
+            );
+            changes.push(Change::of(SLOWER, old, name, figures));
         }
     }
     changes

@@ -172,7 +172,8 @@ impl Judged<'_> {
             found.sort_by(|a, b| b.0.total_cmp(&a.0));
             worst.extend(found.iter().take(self.effort.pick(1, 4)));
         }
-        let mut starts: Vec<Texel> = marked(size).chain(self.worst(baked, level)).chain([steepest]).collect();
+        let mut starts = self.worst(baked, level);
+        starts.push(steepest);
         starts.extend(worst.into_iter().map(|(_, texel)| texel));
         let found = self.errors(baked, level, &starts).into_iter().map(largest).zip(starts).collect();
         for from in spaced(found, size, self.effort.pick(3, 8), 4.0 / size as f64) {

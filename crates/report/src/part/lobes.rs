@@ -266,6 +266,8 @@ fn horizon(point: &Point, tilt: f64) -> [f64; 3] {
 
 /// The base's own reflection, the coat's, and what of it is occluded or below the horizon: each is a part of the same sums.
 fn reflected(light: &Light, count: usize) -> Vec<Row> {
+    // Few of them see the sun, and err most.
+    let count = 2 * count;
     let passes: Vec<(Point, Pass)> = points(count, ROUGHNESS)
         .map(|point| {
             let pass = Pass::of(light, &point);
@@ -494,15 +496,15 @@ mod tests {
 
     /// Largest rms error of each default, in the studio and under the sky: what is measured, and a tenth.
     const BOUNDS: [(&str, &str, f64, f64); 9] = [
-        ("reflection", "leaning", 0.5, 0.15),
-        ("coat", "leaning", 0.6, 0.15),
-        ("sheen", "ring", 0.25, 0.23),
-        ("anisotropy", "strips", 0.31, 0.25),
-        ("transmission", "leaning facet, refracted width", 0.19, 0.1),
-        ("transmission", "leaning", 0.72, 0.26),
-        ("thin_film", "at the split sum's mean cosine", 0.55, 0.35),
-        ("specular_occlusion", "cone", 0.8, 0.78),
-        ("horizon", "cone", 0.39, 0.17),
+        ("reflection", "leaning", 0.36, 0.18),
+        ("coat", "leaning", 0.42, 0.19),
+        ("sheen", "ring", 0.33, 0.32),
+        ("anisotropy", "strips", 0.25, 0.25),
+        ("transmission", "leaning facet, refracted width", 0.26, 0.12),
+        ("transmission", "leaning", 0.3, 0.25),
+        ("thin_film", "at the split sum's mean cosine", 0.45, 0.25),
+        ("specular_occlusion", "cone", 2.0, 2.4),
+        ("horizon", "cone", 0.42, 0.3),
     ];
 
     #[test]

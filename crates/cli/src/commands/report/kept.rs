@@ -60,6 +60,11 @@ impl Kept {
         let files = ["report.json", "index.html"].map(|name| self.folder.join(name));
         for path in files.into_iter().chain(parts.iter().map(|part| self.csv(part.name))) {
             check_place(&path)?;
+            // What is no file may have no end, and is not to be replaced by one.
+            if path.exists() && !path.is_file() {
+                let failure = Failure::input("the report cannot be written there").at(&path);
+                return Err(failure.because("it is no regular file").try_to("another folder for --output"));
+            }
             match std::fs::read(&path) {
                 Ok(known) => write_file(&path, &known)?,
                 Err(_) => {
