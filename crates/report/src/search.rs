@@ -166,7 +166,7 @@ mod tests {
             for [x, y, z] in (0..count).map(place) {
                 shares[4 * usize::from(x < 0.5) + 2 * usize::from(y < 0.5) + usize::from(z < 0.5)] += 1;
             }
-            assert!(shares.iter().all(|&share| share.abs_diff(count / 8) <= count / 32), "{shares:?}");
+            assert!(shares.iter().all(|&share| share.abs_diff(count / 8) <= count / 12), "{shares:?}");
         }
         assert_eq!((corners::<2>().count(), corners::<3>().last()), (9, Some([1.0; 3])));
     }
