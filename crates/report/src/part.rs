@@ -111,8 +111,8 @@ impl Part {
     pub fn seconds(&self, effort: Effort) -> f64 {
         let [quick, full] = match self.name {
             "shaders" => [22.0, 60.0],
-            "ibl" => [24.0, 80.0],
-            "lobes" => [5.0, 35.0],
+            "ibl" => [38.0, 130.0],
+            "lobes" => [8.0, 75.0],
             "specular_aa" => [1.0, 10.0],
             "pictures" => [30.0, 350.0],
             "peers" => [5.0, 110.0],
