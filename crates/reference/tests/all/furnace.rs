@@ -73,6 +73,27 @@ fn a_white_torus_needs_its_bounces() {
     assert!(none < 0.95 && (many - 1.0).abs() < 4.0 * error + 5e-3 && (unshadowed - 1.0).abs() < 1e-9);
 }
 
+/// What has the index of air lets all light through, however rough: its lobe is one direction.
+#[test]
+fn a_body_of_the_index_of_air_is_not_to_be_seen() {
+    for (roughness, ior) in [(0.05, 1.0), (0.5, 1.0), (1.0, 1.0), (0.5, 1.0 + 1e-9), (0.5, 1.0 - 1e-7)] {
+        let values = [
+            ("base_color", color([1.0; 3])),
+            ("transmission_weight", number(1.0)),
+            ("perceptual_roughness", number(roughness)),
+            ("ior", number(ior)),
+        ];
+        // Schlick's form reflects all at grazing incidence whatever the index.
+        let (mean, error) =
+            mean(BuiltinMesh::Sphere, &values, &[("compensation", "none"), ("fresnel", "exact")], SMALL());
+        println!("roughness {roughness}, ior {ior}: {mean:.5} +- {error:.5}");
+        // Facets that hide each other lose some of the light: nothing of a smooth body, a fifth of a rough one.
+        let least = 1.0 - 0.25 * roughness;
+        assert!(mean > least - 4.0 * error && mean < 1.0 + 4.0 * error, "{roughness} {ior}: {mean} +- {error}");
+        assert!(error < 0.01, "{roughness} {ior}: {mean} +- {error}");
+    }
+}
+
 #[test]
 fn layers_never_gain() {
     let one = |name, value| vec![("base_color", color([1.0; 3])), (name, value)];
