@@ -61,6 +61,8 @@ pub(crate) struct Chosen {
     paths: u64,
     studio: Measured,
     lamp: Option<f64>,
+    /// Whether the material has a displacement, which what is reached leaves out.
+    is_flattened: bool,
     faults: Vec<String>,
 }
 
@@ -102,7 +104,9 @@ pub(crate) fn choose(wanted: Asked<'_>) -> Result<Chosen, Failure> {
         .collect();
     let candidates = candidates(&truth, &choices)?;
 
+    let before = material.document.clone();
     let scene = pictures::scene(scene, &truth);
+    let is_flattened = scene.materials.first().is_some_and(|material| material.document != before);
     let mut studio = Studio::new(&scene)?;
     let is_lit = needs.directional_lights + needs.point_lights + needs.spot_lights > 0;
     let lamp = if is_lit { Some(Lamp::new(&scene)?) } else { None };
@@ -139,6 +143,7 @@ pub(crate) fn choose(wanted: Asked<'_>) -> Result<Chosen, Failure> {
                     paths,
                     studio: found,
                     lamp,
+                    is_flattened,
                     faults: studio.faults(),
                 });
             }
@@ -326,9 +331,10 @@ impl Chosen {
             Remark {
                 lead: "budget",
                 text: format!(
-                    "error {} is kept: {}",
+                    "error {} is kept: {}{}",
                     self.max_error,
-                    reached_in_words(&self.studio, self.paths, self.lamp)
+                    reached_in_words(&self.studio, self.paths, self.lamp),
+                    if self.is_flattened { ", without displacement" } else { "" }
                 ),
             },
             Remark { lead: "chosen", text: format!("{methods}{kept}") },

@@ -24,6 +24,7 @@ mod passes;
 mod picture;
 mod real;
 pub mod scene;
+mod square;
 pub mod texels;
 mod textures;
 pub mod tone_map;

@@ -1,5 +1,6 @@
 //! `halfvector check`: everything that is wrong with documents.
 
+mod measured;
 mod stability;
 
 use std::collections::HashMap;
@@ -15,6 +16,7 @@ use halfvector_graph::needs::{EnvironmentNeeds, Needs, ShaderOutput};
 use halfvector_scene::{ImageStore, SceneMaterial};
 use serde_json::json;
 
+use crate::commands::check::measured::{Measured, Meter, Nanoseconds};
 use crate::commands::check::stability::Judged;
 use crate::failure::{FOUND, Failure, WRONG_INPUT};
 use crate::input::{self, Kind};
@@ -41,7 +43,8 @@ pub(crate) struct CheckArgs {
     #[arg(long, requires = "stability")]
     f16: bool,
     /// Also estimates what each node and the whole shader cost under one directional light: instructions by class, reads of
-    /// textures, bytes of uniforms. Of many nodes the 20 costliest are listed; --format json has all
+    /// textures, bytes of uniforms. Where a device has timestamps (a software one, too) the time of a pixel is measured as well,
+    /// and of each node what holding its outputs saves. Of many nodes the 20 costliest are listed; --format json has all
     #[arg(long)]
     cost: bool,
     /// How problems are written
@@ -70,9 +73,11 @@ struct Costed {
     cost: Cost,
     /// The labels of the cost's nodes, in its order.
     labels: Vec<String>,
+    /// By the device, or why not.
+    measured: Result<Measured, String>,
 }
 
-/// Most nodes whose cost is listed as text.
+/// Most nodes whose cost is listed as text, and measured.
 const MOST_COSTED: usize = 20;
 
 /// Most equal problems of a file that are listed as text.
@@ -83,6 +88,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let mut found = Vec::new();
     let mut judged = Vec::new();
     let mut costed = Vec::new();
+    let mut meter = None;
     let mut unreadable = false;
     for path in &args.documents {
         match materials(path) {
@@ -100,7 +106,9 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
                         match estimate(&material.document) {
                             Ok(cost) => {
                                 let labels = labels(&material.document, &cost.nodes);
-                                costed.push(Costed { file: path.clone(), cost, labels });
+                                let meter = meter.get_or_insert_with(Meter::open);
+                                let measured = meter.measure(material, &cost.nodes, MOST_COSTED);
+                                costed.push(Costed { file: path.clone(), cost, labels, measured });
                             }
                             Err(more) => problems.extend(more),
                         }
@@ -236,7 +244,7 @@ fn estimate(document: &Document) -> Result<Cost, Vec<Problem>> {
 
 /// The total and one line for each of the dearest nodes, the dearest first.
 fn cost_lines(costed: &Costed) -> Vec<String> {
-    let Costed { file, cost, labels } = costed;
+    let Costed { file, cost, labels, measured } = costed;
     let classes = |i: Instructions| {
         format!(
             "{} instructions ({} arithmetic, {} transcendental, {} choices, {} texture reads)",
@@ -256,15 +264,30 @@ fn cost_lines(costed: &Costed) -> Vec<String> {
         cost.uniform_bytes,
         per_turn(cost.per_turn)
     )];
-    let mut nodes: Vec<_> = cost.nodes.iter().zip(labels).collect();
-    nodes.sort_by_key(|(node, _)| std::cmp::Reverse(node.instructions.total()));
+    lines.push(match measured {
+        Ok(Measured { device, is_software, whole, .. }) => {
+            let software = if *is_software { ", a software device" } else { "" };
+            let nodes = "; of a node: what is saved when its outputs are held and what only it reads goes";
+            let nodes = if cost.nodes.is_empty() { "" } else { nodes };
+            format!("{file}: cost, measured: each pixel {} on {device}{software}{nodes}", in_words(whole))
+        }
+        Err(why) => format!("{file}: cost, not measured: {why}"),
+    });
+    let node_times = |at: usize| match measured.as_ref().ok().and_then(|measured| measured.nodes.get(at)) {
+        Some(Ok(time)) => format!("; measured {}", in_words(time)),
+        Some(Err(why)) => format!("; not measured: {why}"),
+        None => String::new(),
+    };
+    let mut nodes: Vec<_> = cost.nodes.iter().zip(labels).enumerate().collect();
+    nodes.sort_by_key(|(_, (node, _))| std::cmp::Reverse(node.instructions.total()));
     let others = nodes.split_off(nodes.len().min(MOST_COSTED));
-    lines.extend(nodes.into_iter().map(|(node, label)| {
+    lines.extend(nodes.into_iter().map(|(at, (node, label))| {
         let NodeCost { node, instructions, per_turn: is_per_turn } = node;
-        format!("{file}: cost: `{label}` ({node}): {}{}", classes(*instructions), per_turn(*is_per_turn))
+        let (classes, per_turn) = (classes(*instructions), per_turn(*is_per_turn));
+        format!("{file}: cost: `{label}` ({node}): {classes}{per_turn}{}", node_times(at))
     }));
     if !others.is_empty() {
-        let sum = others.iter().map(|(node, _)| u64::from(node.instructions.total())).sum::<u64>();
+        let sum = others.iter().map(|(_, (node, _))| u64::from(node.instructions.total())).sum::<u64>();
         let (count, nodes) = (others.len(), if others.len() == 1 { "node" } else { "nodes" });
         lines.push(format!(
             "{file}: cost: {count} {nodes} more: {sum} instructions together; `--format json` lists all of them"
@@ -273,11 +296,27 @@ fn cost_lines(costed: &Costed) -> Vec<String> {
     lines
 }
 
+/// A time with its spread.
+fn in_words(time: &Nanoseconds) -> String {
+    format!("{:.2} ns (spread {:.2})", time.median, time.spread)
+}
+
 fn cost_json(costed: &Costed) -> serde_json::Value {
-    let Costed { file, cost, labels } = costed;
-    let nodes = cost.nodes.iter().zip(labels).map(|(node, label)| {
+    let Costed { file, cost, labels, measured } = costed;
+    let nodes = cost.nodes.iter().zip(labels).enumerate().map(|(at, (node, label))| {
+        let time = measured.as_ref().map_err(String::as_str).and_then(|measured| match measured.nodes.get(at) {
+            Some(Ok(time)) => Ok(time),
+            Some(Err(why)) => Err(why.as_str()),
+            None => Err("it was left out"),
+        });
         json!({ "node": node.node, "label": label, "instructions": node.instructions,
-            "total": node.instructions.total(), "per_turn": node.per_turn })
+            "total": node.instructions.total(), "per_turn": node.per_turn,
+            "measured": time.ok().map(|time| json!({ "ns": time.median, "spread": time.spread })),
+            "not_measured": time.err() })
+    });
+    let whole = measured.as_ref().ok().map(|measured| {
+        let Measured { device, is_software, whole, .. } = measured;
+        json!({ "device": device, "software": is_software, "ns": whole.median, "spread": whole.spread })
     });
     json!({
         "file": file.display().to_string(),
@@ -288,6 +327,8 @@ fn cost_json(costed: &Costed) -> serde_json::Value {
         "vertex_total": cost.vertex.total(),
         "uniform_bytes": cost.uniform_bytes,
         "per_turn": cost.per_turn,
+        "measured": whole,
+        "not_measured": measured.as_ref().err(),
         "nodes": nodes.collect::<Vec<_>>(),
     })
 }

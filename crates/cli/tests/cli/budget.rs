@@ -101,6 +101,8 @@ fn a_height_does_not_change_the_error() {
     let displaced = with(noise, r#"{"from": "noise.out", "to": "surface.height"}"#);
     assert!(flat["reached"]["studio"]["error"].as_f64().is_some_and(|error| error > 0.0), "{flat}");
     assert_eq!(flat["reached"], displaced["reached"]);
+    let text = std::fs::read_to_string(folder.path("x/metal.wgsl")).expect("the shader");
+    assert!(text.replace("\n// ", " ").contains("without displacement"), "{text}");
 }
 
 #[test]

@@ -100,6 +100,17 @@ fn the_cost_of_nodes_is_told() {
     assert!(node["node"] == "colors" || node["node"] == "tartan", "{node}");
     assert!(cost["fragment_total"].as_u64() > node["total"].as_u64(), "{cost}");
     assert!(cost["per_turn"].is_boolean() && node["per_turn"].is_boolean(), "{cost}");
+    // A time where there is a device with a clock, a reason where there is none: one of the two.
+    let is_needed = std::env::var("HALFVECTOR_REQUIRE_GPU").as_deref() == Ok("1");
+    assert!(cost["measured"].is_object() || !is_needed, "{cost}");
+    let measured = text.contains("cost, measured: each pixel ") && text.contains(" ns (spread ");
+    assert_eq!(measured, cost["measured"].is_object(), "{text}{cost}");
+    for one in cost["nodes"].as_array().into_iter().flatten().chain([cost]) {
+        assert_ne!(one["measured"].is_object(), one["not_measured"].is_string(), "{one}");
+        let time = &one["measured"];
+        assert!(time.is_null() || time["ns"].as_f64() > Some(0.0) && time["spread"].as_f64() >= Some(0.0), "{one}");
+    }
+    assert!(cost["measured"].is_null() || cost["measured"]["device"].is_string(), "{cost}");
 
     // Of many nodes the costliest are listed.
     let sine = |i: usize| format!(r#""n{i}": {{"node": "math/sin"}}"#);
@@ -115,10 +126,32 @@ fn the_cost_of_nodes_is_told() {
         ),
     );
     let text = folder.run(&["check", "--cost", "many.material.json"]).ends(0).stdout;
-    assert_eq!(text.lines().count(), 22, "{text}");
+    assert_eq!(text.lines().count(), 23, "{text}");
     assert!(text.contains("(grain): ") && text.contains("cost: 11 nodes more: 11 instructions together"), "{text}");
     let json = folder.run(&["check", "--cost", "--format", "json", "many.material.json"]).ends(0).json();
     assert_eq!(json["cost"][0]["nodes"].as_array().map(Vec::len), Some(31));
+}
+
+/// The estimate needs no device, and says in words why nothing is measured.
+#[test]
+fn the_cost_is_told_without_a_device() {
+    let folder = Folder::new();
+    let run = |more: &[&str]| {
+        let arguments = [&["check", "--cost", "plain.material.json"], more].concat();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_halfvector"))
+            .args(&arguments)
+            .current_dir(folder.path(""))
+            // No adapter has this name.
+            .env("WGPU_ADAPTER_NAME", "no such adapter")
+            .output()
+            .expect("the program starts");
+        crate::Run::new(&arguments, &output).ends(0)
+    };
+    let text = run(&[]).stdout;
+    assert!(text.contains("cost, estimated: ") && text.contains("cost, not measured: no GPU was found"), "{text}");
+    let cost = &run(&["--format", "json"]).json()["cost"][0];
+    assert!(cost["measured"].is_null() && cost["fragment_total"].as_u64() > Some(0), "{cost}");
+    assert!(cost["not_measured"].as_str().is_some_and(|why| why.contains("no GPU was found")), "{cost}");
 }
 
 #[test]
