@@ -224,6 +224,7 @@ impl Editor {
 
     /// Draws the window into a `Ui` that fills it.
     pub fn show(&mut self, ui: &mut egui::Ui) {
+        self.panes.canvas.begin_frame(ui.ctx());
         self.hear();
         self.session.set_pictures(self.panes.watch.hear(&self.context, &self.session));
         self.panes.problems.hear(&self.session);

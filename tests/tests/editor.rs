@@ -14,6 +14,7 @@ mod hands;
 mod inspector;
 mod keyboard;
 mod library;
+mod lying_over;
 mod measures;
 mod opening;
 mod palette;

@@ -77,13 +77,14 @@ pub(crate) struct Outside {
 }
 
 impl Files {
-    /// Starts the thread and reads what the editor opens with: the session, and why it is not the one that was wanted.
+    /// Starts the thread and reads what the editor opens with: the session, and what went wrong. A file that is there and cannot be
+    /// read is asked about, and the session has no file: nothing writes over it unasked.
     pub(crate) fn start(context: &egui::Context, options: Options) -> (Files, Session, Vec<String>) {
         let mut troubles = Vec::new();
         let (settings, trouble) = options.folders.settings.as_deref().map_or_else(Default::default, Settings::load);
         troubles.extend(trouble);
         let mut session = Session::new();
-        let mut open = None;
+        let (mut open, mut question) = (None, None);
         if let Some(path) = options.document {
             match read(&path) {
                 Ok(read) => {
@@ -91,6 +92,7 @@ impl Files {
                     open = Some((path.clone(), read.bytes.clone()));
                     session = Session::read(read, path);
                 }
+                Err(why) if path.exists() => question = Some(Question::Broken(absolute(&path), why)),
                 Err(why) => troubles.push(why),
             }
         }
@@ -104,7 +106,7 @@ impl Files {
             remembered: (settings.clone(), Instant::now()),
             settings,
             chooser: None,
-            question: None,
+            question,
             after_save: None,
             kept: None,
             differs_since: None,
@@ -237,6 +239,10 @@ impl Editor {
                 }
                 Report::Opened(path, Err(why)) => {
                     self.files.settings.recent.retain(|recent| *recent != path || path.exists());
+                    // Somebody tries again what could not be read before.
+                    if self.session.file().is_none() && path.exists() {
+                        self.files.question.get_or_insert(Question::Broken(path, why.clone()));
+                    }
                     self.messages.fail(why);
                 }
                 Report::Saved(path, what, Ok(())) => self.was_saved(path, what),

@@ -24,6 +24,8 @@ pub(crate) enum Question {
     Replace(PathBuf),
     /// Windows that are gone have left unsaved work.
     Lost,
+    /// The file that was to be opened cannot be read: which, and why.
+    Broken(PathBuf, String),
     /// The sheet of keys.
     Keys,
     /// What this program is.
@@ -42,6 +44,8 @@ enum Answer {
     Recover(usize),
     Forget(usize),
     Later,
+    OpenAgain,
+    OpenOther,
 }
 
 impl Editor {
@@ -57,6 +61,7 @@ impl Editor {
                 Question::Overwrite(path) => answer = ask_overwrite(ui, path, self.files.is_recovered),
                 Question::Replace(path) => answer = ask_replace(ui, path),
                 Question::Lost => answer = self.ask_lost(ui),
+                Question::Broken(path, why) => answer = self.ask_broken(ui, path, why),
                 Question::Keys => answer = crate::app::sheet::keys(ui).then_some(Answer::Cancel),
                 Question::About => answer = crate::app::sheet::about(ui).then_some(Answer::Cancel),
             }
@@ -75,6 +80,8 @@ impl Editor {
             (Answer::Save, Some(Question::Unsaved(next))) => self.save_then(next),
             (Answer::Discard, Some(Question::Unsaved(next))) => self.go(next),
             (Answer::Overwrite, Some(Question::Overwrite(path) | Question::Replace(path))) => self.save_as(path, true),
+            (Answer::OpenAgain, Some(Question::Broken(path, _))) => self.ask(Next::Open(path)),
+            (Answer::OpenOther, _) => self.choose(crate::action::Choose::Open),
             (Answer::SaveAs, _) => self.choose(crate::action::Choose::SaveAs),
             (Answer::Reload, _) => {
                 self.cancel();
@@ -125,6 +132,26 @@ impl Editor {
                 ("Save", "Write the changes to the file", Answer::Save),
                 ("Discard", "The changes are lost", Answer::Discard),
                 ("Cancel", "Go on as before", Answer::Cancel),
+            ],
+        )
+    }
+
+    fn ask_broken(&self, ui: &mut egui::Ui, path: &std::path::Path, why: &str) -> Option<Answer> {
+        ui.heading("The file cannot be opened");
+        ui.add(egui::Label::new(why).wrap());
+        ui.add_space(4.0);
+        ui.add(egui::Label::new(format!(
+            "{} stays as it is: “{}” is open here instead, and saving it asks for a file of its own. Mend the file in a text \
+             editor and try again, or open another one.",
+            path.file_name().unwrap_or(path.as_os_str()).display(),
+            self.session.document().name
+        )).wrap());
+        buttons(
+            ui,
+            &[
+                ("Try again", "Read the file again, after it was mended", Answer::OpenAgain),
+                ("Open another…", "Choose another material", Answer::OpenOther),
+                ("Close", "Go on with what is open here", Answer::Cancel),
             ],
         )
     }

@@ -39,18 +39,24 @@ const FUNCTIONS: &[Hint] = &[
     Hint { keys: "Tab", what: "Set in; Esc, then Tab goes on to the next control" },
 ];
 
+/// Width of the column of keys.
+const KEYS_WIDTH: f32 = 200.0;
+/// Width of a key's row: as wide as the longest one needs.
+const ROW_WIDTH: f32 = 590.0;
+const GAP: f32 = 24.0;
+
 /// Draws the sheet; whether it is to be closed.
 pub(crate) fn keys(ui: &mut egui::Ui) -> bool {
     ui.heading("Keys");
     let screen = ui.ctx().content_rect();
-    let is_wide = screen.width() > 980.0;
-    if is_wide {
-        ui.set_width(900.0);
-    }
+    let wide = 2.0 * ROW_WIDTH + GAP;
+    let is_wide = screen.width() > wide + 60.0;
+    ui.set_width(if is_wide { wide } else { ROW_WIDTH.min(screen.width() - 60.0) });
     let height = screen.height() * 0.74;
     egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
         ui.add_space(4.0);
         if is_wide {
+            ui.spacing_mut().item_spacing.x = GAP;
             ui.columns(2, |columns| {
                 window(&mut columns[0]);
                 list(&mut columns[0], "Everywhere", EVERYWHERE);
@@ -68,30 +74,35 @@ pub(crate) fn keys(ui: &mut egui::Ui) -> bool {
 
 fn window(ui: &mut egui::Ui) {
     ui.strong("Window");
-    grid("keys of the window").show(ui, |ui| {
-        for shortcut in SHORTCUTS {
-            let text = |keys| ui.ctx().format_shortcut(keys).replace("Questionmark", "?");
-            let keys: Vec<String> = shortcut.keys.iter().map(text).collect();
-            row(ui, &keys.join(" or "), shortcut.what);
-        }
-    });
+    for (place, shortcut) in SHORTCUTS.iter().enumerate() {
+        let text = |keys| ui.ctx().format_shortcut(keys).replace("Questionmark", "?");
+        let keys: Vec<String> = shortcut.keys.iter().map(text).collect();
+        row(ui, place, &keys.join(" or "), shortcut.what);
+    }
     ui.add_space(8.0);
 }
 
 fn list(ui: &mut egui::Ui, title: &str, hints: &[Hint]) {
     ui.strong(title);
-    grid(title).show(ui, |ui| hints.iter().for_each(|hint| row(ui, hint.keys, hint.what)));
+    hints.iter().enumerate().for_each(|(place, hint)| row(ui, place, hint.keys, hint.what));
     ui.add_space(8.0);
 }
 
-fn grid(id: &str) -> egui::Grid {
-    egui::Grid::new(id).num_columns(2).striped(true).min_col_width(180.0).spacing([16.0, 4.0])
-}
-
-fn row(ui: &mut egui::Ui, keys: &str, what: &str) {
-    ui.monospace(keys);
-    ui.label(what);
-    ui.end_row();
+/// The same columns in all lists; what is too long for one goes on in the next line.
+fn row(ui: &mut egui::Ui, place: usize, keys: &str, what: &str) {
+    let fill = if place.is_multiple_of(2) { egui::Color32::TRANSPARENT } else { ui.visuals().faint_bg_color };
+    egui::Frame::new().fill(fill).inner_margin(egui::Margin::symmetric(4, 2)).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.x = 8.0;
+        ui.horizontal_top(|ui| {
+            let rest = ui.available_width() - KEYS_WIDTH - 8.0;
+            for (width, text) in [(KEYS_WIDTH, egui::RichText::new(keys).monospace()), (rest, what.into())] {
+                ui.vertical(|ui| {
+                    ui.set_width(width);
+                    ui.add(egui::Label::new(text).wrap());
+                });
+            }
+        });
+    });
 }
 
 /// Draws the page; whether it is to be closed.

@@ -136,11 +136,11 @@ fn on_level(session: &Session, counted: &Counted) -> BTreeMap<NodeId, u32> {
 
 fn total(counted: &Counted) -> String {
     let Counted { fragment, vertex, uniform_bytes, .. } = counted;
+    let [in_fragment, in_vertex] = [fragment.total(), vertex.total()];
     format!(
-        "fragment: {} instructions, {} texture reads · vertex: {} instructions · {uniform_bytes} bytes of uniforms",
-        fragment.total(),
-        fragment.samples,
-        vertex.total()
+        "{} instructions: {in_fragment} fragment, {in_vertex} vertex · {} texture reads · {uniform_bytes} bytes of uniforms",
+        in_fragment.saturating_add(in_vertex),
+        fragment.samples.saturating_add(vertex.samples),
     )
 }
 
@@ -171,6 +171,9 @@ fn bars(ui: &mut egui::Ui, session: &Session, counted: &Counted, labels: &[Strin
     bars.push(Bar { node: None, label: "Light and transforms".to_owned(), instructions: rest });
     bars.sort_by_key(|bar| std::cmp::Reverse(weight(bar.instructions)));
     let most = bars.first().map_or(1, |bar| weight(bar.instructions)).max(1);
+    ui.weak("Instructions of each node, fragment and vertex together").on_hover_text(
+        "As long as the bar: a transcendental function weighs four instructions, a read of a texture sixteen.",
+    );
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for bar in &bars {
             ui.horizontal(|ui| row(ui, session, bar, weight(bar.instructions) as f32 / most as f32, actions));

@@ -84,7 +84,7 @@ fn what_is_cut_and_pasted_is_offered_as_before() {
     assert_eq!(parameters(&window)[2], "how_metallic_2 grain_2.scale");
     key(&mut window, egui::Modifiers::COMMAND, egui::Key::D);
     window.run_steps(2);
-    assert_eq!(parameters(&window)[3], "how_metallic_3 grain_2_2.scale");
+    assert_eq!(parameters(&window)[3], "how_metallic_3 grain_3.scale");
     assert!(is_told(&window, "came along as `how_metallic_3`"));
     for _ in 0..4 {
         window.state_mut().act(Action::Undo);

@@ -20,8 +20,11 @@ pub(crate) struct EditArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &EditArgs) -> Result<u8, Failure> {
-    if let Some(path) = &args.document {
-        crate::input::material(path)?;
+    // What is there and cannot be read is told in the window, which does not write over it; without a window here.
+    let mut broken = args.document.as_deref().and_then(|path| crate::input::material(path).err());
+    let is_there = args.document.as_deref().is_some_and(std::path::Path::exists);
+    if let Some(failure) = broken.take_if(|_| !is_there) {
+        return Err(failure);
     }
     match halfvector_editor::run(Options {
         document: args.document.clone(),
@@ -29,9 +32,11 @@ pub(crate) fn run(args: &EditArgs) -> Result<u8, Failure> {
         ..Options::default()
     }) {
         Ok(()) => Ok(0),
-        Err(error) => Err(Failure::input("the editor did not open")
-            .because(error)
-            .try_to("`halfvector render` and `halfvector export`, which need no window")),
+        Err(error) => Err(broken.unwrap_or_else(|| {
+            Failure::input("the editor did not open")
+                .because(error)
+                .try_to("`halfvector render` and `halfvector export`, which need no window")
+        })),
     }
 }
 

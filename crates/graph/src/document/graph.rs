@@ -108,6 +108,7 @@ impl Graph {
 }
 
 /// A name like `base` that is not taken: `base` in lower case with `_` for what no name has, and a number behind it where needed.
+/// One that has a number counts on: after `grain_2` comes `grain_3`.
 pub fn free_name(base: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let mut name: String =
         base.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).take(100).collect();
@@ -115,7 +116,9 @@ pub fn free_name(base: &str, is_taken: impl Fn(&str) -> bool) -> String {
         name.insert_str(0, "node_");
     }
     let mut id = name.clone();
-    let mut number = 2u64;
+    let stem = name.rsplit_once('_').filter(|(stem, end)| is_name(stem) && !end.starts_with('0'));
+    let counted = stem.and_then(|(stem, end)| Some((stem, end.parse::<u32>().ok()?)));
+    let (name, mut number) = counted.map_or((name.as_str(), 2), |(stem, last)| (stem, u64::from(last) + 1));
     while is_taken(&id) {
         id = format!("{name}_{number}");
         number += 1;

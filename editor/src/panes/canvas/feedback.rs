@@ -51,7 +51,7 @@ impl Canvas {
                     if let Some((_, Some(why))) = asked {
                         color = theme::ERROR;
                         draw::words(brush.painter, at, why, color, &brush.colors);
-                        super::tell_words(ui, why);
+                        super::announce::words(ui, why);
                     }
                     brush.ring(end, color);
                 }

@@ -12,7 +12,7 @@ use halfvector_graph::operation::insert_on_link;
 use halfvector_graph::value::Value;
 
 use super::adding::Purpose;
-use super::fit::{self, Loose, candidates, refusal};
+use super::fit::{self, Loose, candidates, refusal, sentence};
 use super::guides::{self, Snapped};
 use super::hit::{self, Hit};
 use super::notes::{self, NoteId, Part};
@@ -258,14 +258,25 @@ impl Canvas {
                 let way = snapped.way;
                 let all = if way == Vec2::ZERO { Vec::new() } else { held.moved(desk, sheet, way) };
                 let (document, group) = (desk.session.document(), desk.session.group());
-                let insert = |link: &Link| {
+                // On a wire that it does not fit it only lies, and it is told why.
+                let over = into.or_else(|| {
+                    loose_card(sheet, &held)?;
+                    hit::wire_at(sheet, desk.lens, at, |_| true)
+                });
+                let insert = |i: usize| {
                     let node = held.nodes.first()?;
-                    insert_on_link(document, Library::standard(), group, link, node).ok()
+                    Some(insert_on_link(document, Library::standard(), group, &sheet.wires[i].link, node))
                 };
-                match into.and_then(|i| insert(&sheet.wires[i].link)) {
-                    Some(edit) => desk.make_with(sheet, "Insert node into wire", all, edit),
-                    None if all.is_empty() => {}
-                    None => desk.edit(sheet, name, all),
+                match over.and_then(insert) {
+                    Some(Ok(edit)) => desk.make_with(sheet, "Insert node into wire", all, edit),
+                    refused => {
+                        if let Some(Err(why)) = refused {
+                            self.say(ui, at, sentence(&why.0));
+                        }
+                        if !all.is_empty() {
+                            desk.edit(sheet, name, all);
+                        }
+                    }
                 }
             }
             Gesture::Resize { note, way, .. } => {
@@ -453,13 +464,15 @@ fn snap(sheet: &Sheet, held: &Chosen, way: Vec2, lens: super::Lens) -> Snapped {
     moving.map_or_else(Snapped::default, |moving| guides::snap(moving, &others, way, lens.view.zoom))
 }
 
+/// The only node that is dragged, when nothing is wired to it.
+fn loose_card<'s>(sheet: &'s Sheet, held: &Chosen) -> Option<&'s super::Card> {
+    let id = held.nodes.first().filter(|_| held.nodes.len() == 1 && held.notes.is_empty())?;
+    sheet.card(id).filter(|card| card.rows.iter().all(|row| !row.is_wired))
+}
+
 /// The wire that a single unwired node is dragged on to, when it fits in there.
 fn wire_for(sheet: &Sheet, held: &Chosen, desk: &Desk<'_>, at: Pos2) -> Option<usize> {
-    let id = held.nodes.first().filter(|_| held.nodes.len() == 1 && held.notes.is_empty())?;
-    let card = sheet.card(id)?;
-    if card.rows.iter().any(|row| row.is_wired) {
-        return None;
-    }
+    let card = loose_card(sheet, held)?;
     let def = desk.library.get(&card.definition)?;
     hit::wire_at(sheet, desk.lens, at, |i| {
         let wire = &sheet.wires[i];

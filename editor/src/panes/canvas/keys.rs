@@ -74,7 +74,9 @@ impl Canvas {
 
     /// Does what the keys ask for.
     pub(super) fn keys(&mut self, ui: &egui::Ui, response: &Response, desk: &mut Desk<'_>, sheet: &Sheet) {
-        if self.palette.is_open() || self.editing.is_some() || self.connecting.is_some() {
+        // What lies over the canvas comes first; one that Escape has closed in this frame is not open any more.
+        let is_covered = self.was_covered || is_covered(ui.ctx());
+        if is_covered || self.palette.is_open() || self.editing.is_some() || self.connecting.is_some() {
             return;
         }
         let focused = ui.memory(|memory| memory.focused());
@@ -286,6 +288,11 @@ impl Canvas {
             Stop::Note(note) => self.picked.contains(&sheet.notes[note].id),
         }
     }
+}
+
+/// Whether a menu or a dialog is open anywhere in the window: the keys are for that.
+pub(super) fn is_covered(context: &egui::Context) -> bool {
+    egui::Popup::is_any_open(context) || context.memory(|memory| memory.top_modal_layer().is_some())
 }
 
 /// Where Tab stops.
