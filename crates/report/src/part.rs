@@ -111,7 +111,7 @@ impl Part {
     pub fn seconds(&self, effort: Effort) -> f64 {
         let [quick, full] = match self.name {
             "shaders" => [22.0, 60.0],
-            "ibl" => [38.0, 130.0],
+            "ibl" => [48.0, 140.0],
             "lobes" => [8.0, 75.0],
             "specular_aa" => [1.0, 10.0],
             "pictures" => [30.0, 350.0],

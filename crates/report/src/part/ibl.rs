@@ -78,10 +78,10 @@ pub(super) struct Truth {
 type Known<const N: usize> = Vec<([f64; N], [f64; 3])>;
 
 /// How much is searched for a largest error by what is nearly true.
-const SEARCH: Search = Search { starts: 10, rounds: 6 };
+const SEARCH: Search = Search { starts: 16, rounds: 7 };
 
 /// How much the search goes on by what is true.
-const FURTHER: Search = Search { starts: 2, rounds: 6 };
+const FURTHER: Search = Search { starts: 3, rounds: 6 };
 
 /// How far the search by what is true begins to draw around a start, in edges of the unit cube.
 const REACH: f64 = 0.015;
@@ -191,7 +191,7 @@ fn seen(effort: Effort, name: &str, maps: &[BakedEnvironment; 2], truth: &Truth)
     };
     let mut known = Truth::known(remarkable(&[0.0]), light);
     known.extend(&drawn);
-    let near = (0..effort.pick(4000, 12_000)).map(search::place).chain(remarkable(&[0.05, 0.13, 0.25, 0.5, 0.9]));
+    let near = (0..effort.pick(6000, 12_000)).map(search::place).chain(remarkable(&[0.05, 0.13, 0.25, 0.5, 0.9]));
     let near = Truth::known(near.collect::<Vec<_>>(), |place| {
         let (dir, roughness) = asked(place);
         truth.near.prefiltered(dir, roughness)
