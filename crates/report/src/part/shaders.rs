@@ -6,7 +6,6 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::Vec3;
 use halfvector_codegen::target::{export, target};
 use halfvector_codegen::{Fold, Shader};
 use halfvector_graph::document::{Document, Link, Node, SocketRef};
@@ -16,7 +15,7 @@ use halfvector_graph::needs::ShaderOutput;
 use halfvector_graph::value::{ColorSpace, ImageRef, Value};
 use halfvector_ibl::{BakeOptions, BakedEnvironment, bake, studio};
 use halfvector_render::RenderOptions;
-use halfvector_scene::{Background, BuiltinMesh, EnvironmentSource, Light, MeshSource, Scene, bake_options, needs};
+use halfvector_scene::{BuiltinMesh, EnvironmentSource, MeshSource, Scene, bake_options, needs};
 
 use super::pictures::variants::unspecialised;
 use super::stations::{NO_DEVICE, Station, shared, station};
@@ -240,17 +239,12 @@ fn document(term: &str, method: &str) -> (Document, &'static str) {
     (document, with)
 }
 
-/// A square that fills the picture.
+/// A square that fills the picture, under one light and the studio.
 fn scene(document: Document) -> Option<Scene> {
-    let plane = MeshSource::Builtin(BuiltinMesh::Plane);
-    let mut scene = Scene::from_material(document, std::path::Path::new(""), &plane).ok()?;
+    let any = MeshSource::Builtin(BuiltinMesh::Sphere);
+    let material = Scene::from_material(document, std::path::Path::new(""), &any).ok()?.materials.pop()?;
+    let mut scene = Scene::filling_square(material).ok()?;
     scene.environment = EnvironmentSource::Studio;
-    scene.background = Background::None;
-    let direction_to_light = Vec3::new(0.3, 0.5, 0.8).normalize();
-    scene.lights = vec![Light::Directional { direction_to_light, illuminance: Vec3::ONE }];
-    let bounds = scene.bounds()?;
-    scene.camera.position = bounds.center() + 2.0 * (scene.camera.position - bounds.center()).normalize();
-    scene.camera.vertical_fov = 20.0;
     Some(scene)
 }
 
