@@ -12,8 +12,8 @@ pub(super) fn foot(report: &Report, page: &mut String) {
     let device = report.rows.iter().find_map(|row| row.gpu.as_deref()).map_or(String::new(), |name| {
         let spreads: Vec<f64> = report.rows.iter().filter_map(|row| row.gpu_spread).collect();
         format!(
-            "<p><b>Device pixel</b> is the time of that shader for one pixel by the timestamps of {}: the shortest of several \
-             passes, in the fastest of five sittings. The sitting in the middle took {} % longer, in the median of all methods.</p>",
+            "<p><b>Device pixel</b> is the time of that shader for one pixel of a square by the timestamps of {}: the shortest of several \
+             passes, in the fastest of five sittings; of a picture it is the whole pass's, vertices included, for one sample. The sitting in the middle took {} % longer, in the median of all methods.</p>",
             escaped(name),
             words::number(100.0 * median(spreads))
         )
