@@ -110,9 +110,9 @@ fn compare_one(
         paths / 1e6
     );
     assert!(d.mean_relative.abs() < 2e-3, "{file}: {d:?}");
-    // Without any noise the numbers themselves must agree.
+    // Without any noise the numbers themselves must agree; one path of a pixel may be lost at the horizon.
     if relative_error < 1e-6 {
-        assert!(d.largest < 1e-4, "{file}: {d:?}");
+        assert!(d.largest < 1.0 / samples as f64 && d.rmse < 1e-5, "{file}: {d:?}");
         return;
     }
     let z = if environment == "hdr" {
